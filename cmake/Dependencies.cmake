@@ -1,0 +1,13 @@
+# Packages of Debian 12, by the names that docs/building.md lists.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
+find_package(SUNDIALS 6.4 REQUIRED COMPONENTS cvodes nvecserial sunlinsoldense sunmatrixdense)
+find_package(Boost 1.74 REQUIRED)
+find_package(fmt 9 CONFIG REQUIRED)
+find_package(nlohmann_json 3.11 CONFIG REQUIRED)
+find_package(tomlplusplus CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+pkg_check_modules(ipopt REQUIRED IMPORTED_TARGET ipopt)

@@ -1,0 +1,22 @@
+# A layer is a static library of every .cpp below the folders named, with its public headers in
+# include/flexspline/<layer>/. Folders that hold a catalogue are added by flexspline_catalogue.
+option(FLEXSPLINE_WARNINGS_AS_ERRORS "treat compiler warnings as errors" OFF)
+
+function(flexspline_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+                         $<$<BOOL:${FLEXSPLINE_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
+function(flexspline_layer name)
+  cmake_parse_arguments(ARG "" "" "FOLDERS;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(sources "")
+  foreach(folder IN LISTS ARG_FOLDERS)
+    file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(flexspline_${name} STATIC ${sources})
+  target_include_directories(flexspline_${name} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}/include"
+                             PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_link_libraries(flexspline_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+  flexspline_warnings(flexspline_${name})
+endfunction()

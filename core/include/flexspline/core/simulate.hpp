@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flexspline/core/effect.hpp"
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/model_spec.hpp"
+
+namespace flexspline {
+
+/// Displacement-driven: tau(t) = f(phi) + g^-1(phi'/h(phi)) + effects, eq. (4), at the motion's
+/// instants. tau in Nm (N).
+/// Errors: a law or effect that cannot be made.
+Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion& motion);
+
+/// How well a torque-driven simulation is to be integrated.
+struct IntegratorSettings {
+  double relative_tolerance = 1e-8;
+  double absolute_tolerance = 1e-8;  ///< in units of the range of f
+  long max_steps = 200000;
+};
+
+/// Torque-driven: phi' = h(phi) g(tau - f(phi)), eq. (3), from phi(time[0]) = initial, by CVODES
+/// (BDF), with tau a spline through its samples. Gives phi at the instants of time, rad (m).
+/// Effects: inertia_torque needs the measured acceleration and is refused here with every other
+/// effect, as eq. (3) has no place for them.
+/// Errors: numerics, with the time and the state reached.
+Result<std::vector<double>> simulate_torsion(const ModelSpec& model, std::span<const double> time,
+                                             std::span<const double> torque, double initial,
+                                             const IntegratorSettings& settings = {});
+
+}  // namespace flexspline

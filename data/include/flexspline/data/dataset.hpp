@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/recording.hpp"
+
+namespace flexspline::data {
+
+/// One thing that is wrong with (or worth knowing of) a file.
+struct Finding {
+  std::string file;
+  int line = 0;        ///< 1-based; 0: the file as a whole
+  int column = 0;
+  std::string problem; ///< names the key, column or value
+  std::string remedy;
+
+  /// "file:line:column: problem; remedy".
+  std::string message() const;
+};
+
+/// A data set as far as it could be read: everything wrong at once.
+struct DatasetReading {
+  std::optional<RecordingSet> set;  ///< present only when there are no errors
+  std::vector<Finding> errors;
+  std::vector<Finding> notes;       ///< e.g. columns that were ignored
+};
+
+/// Reads a data set of format "flexspline-dataset/1": folder with dataset.toml and CSV tables.
+/// Refuses what the format says must be refused, naming file, line and column.
+DatasetReading read_dataset(const std::filesystem::path& folder);
+
+/// The same for callers that go no further on a failure.
+/// Errors: input_missing when there is no such folder or description, bad_data with every finding.
+Result<RecordingSet> load_dataset(const std::filesystem::path& folder);
+
+/// Writes a data set: dataset.toml and one CSV a recording, each written whole and renamed.
+Result<void> write_dataset(const std::filesystem::path& folder, const RecordingSet& set);
+
+}  // namespace flexspline::data
