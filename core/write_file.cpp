@@ -1,0 +1,101 @@
+#include "flexspline/core/write_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+namespace flexspline {
+namespace {
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+/// Closes what open gave.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+tl::unexpected<Error> not_written(const std::filesystem::path& path, const std::string& why) {
+  return failure(ErrorCode::cannot_write, "cannot write " + path.string() + ": " + why,
+                 "choose a folder that can be written to and has room");
+}
+
+tl::unexpected<Error> not_read(const std::filesystem::path& path, const std::string& why) {
+  return failure(ErrorCode::input_missing, "cannot read " + path.string() + ": " + why,
+                 "check the path and its permissions");
+}
+
+/// 0, or the errno of the write that failed.
+int write_whole(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+int create_whole(const std::filesystem::path& path, std::string_view content) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  return file.number() < 0 ? errno : write_whole(file.number(), content);
+}
+
+/// Unique among the processes and threads that write into one folder.
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  static std::atomic<unsigned> counter = 0;
+  std::filesystem::path result = path;
+  result.replace_filename("." + path.filename().string() + "." + std::to_string(::getpid()) + "-" +
+                          std::to_string(counter++) + ".part");
+  return result;
+}
+
+}  // namespace
+
+Result<void> write_file(const std::filesystem::path& path, std::string_view content) {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  if (error) return not_written(path, error.message());
+  const std::filesystem::path temporary = temporary_beside(path);
+  int code = create_whole(temporary, content);
+  if (code == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
+  if (code == 0) return {};
+  ::unlink(temporary.c_str());
+  return not_written(path, reason(code));
+}
+
+Result<std::string> read_file(const std::filesystem::path& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) return not_read(path, reason(errno));
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0) return not_read(path, reason(errno));
+  // One byte more than the size, so that the end of an ordinary file is seen in one pass.
+  std::string content(static_cast<std::size_t>(status.st_size) + 1, '\0');
+  std::size_t filled = 0;
+  while (true) {
+    const ssize_t got = ::read(file.number(), content.data() + filled, content.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return not_read(path, reason(errno));
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+    if (filled == content.size()) content.resize(2 * content.size());
+  }
+  content.resize(filled);
+  return content;
+}
+
+}  // namespace flexspline
