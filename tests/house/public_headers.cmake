@@ -1,0 +1,20 @@
+# Every public header compiles alone: one translation unit a header, with nothing but what its
+# layer gives to those who link it.
+foreach(layer IN ITEMS core data estimators studies reports)
+  set(include_dir "${PROJECT_SOURCE_DIR}/${layer}/include")
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${include_dir}"
+       "${include_dir}/flexspline/${layer}/*.hpp")
+  set(units "")
+  foreach(header IN LISTS headers)
+    get_filename_component(stem "${header}" NAME_WE)
+    set(unit "${CMAKE_CURRENT_BINARY_DIR}/public_headers/${layer}_${stem}.cpp")
+    file(CONFIGURE OUTPUT "${unit}" CONTENT "#include \"${header}\"\n" @ONLY)
+    list(APPEND units "${unit}")
+  endforeach()
+  if(units)
+    add_library(flexspline_${layer}_public_headers OBJECT ${units})
+    target_link_libraries(flexspline_${layer}_public_headers PRIVATE flexspline_${layer})
+    target_compile_options(flexspline_${layer}_public_headers PRIVATE -O0)
+    flexspline_warnings(flexspline_${layer}_public_headers)
+  endif()
+endforeach()
