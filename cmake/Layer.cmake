@@ -3,7 +3,7 @@
 option(FLEXSPLINE_WARNINGS_AS_ERRORS "treat compiler warnings as errors" OFF)
 
 function(flexspline_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-restrict
                          $<$<BOOL:${FLEXSPLINE_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 

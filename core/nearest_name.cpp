@@ -40,7 +40,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::optional<std::string_view> nearest_name(std::string_view given,
                                              std::span<const std::string_view> known) {
   std::optional<std::string_view> nearest;
-  std::size_t best = std::min(given.size(), std::max<std::size_t>(2, given.size() / 3) + 1);
+  std::size_t best = std::min(given.size(), std::max<std::size_t>(1, given.size() / 3) + 1);
   for (const std::string_view name : known) {
     const std::size_t distance = edit_distance(lower(given), lower(name));
     if (distance >= best) continue;
