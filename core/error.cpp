@@ -7,9 +7,9 @@ namespace flexspline {
 
 std::string Error::message() const {
   std::string text;
-  for (auto place = context.rbegin(); place != context.rend(); ++place) text += *place + ": ";
+  for (auto place = context.rbegin(); place != context.rend(); ++place) text.append(*place).append(": ");
   text += problem;
-  if (!remedy.empty()) text += "; " + remedy;
+  if (!remedy.empty()) text.append("; ").append(remedy);
   return text;
 }
 
