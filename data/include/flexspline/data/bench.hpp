@@ -72,8 +72,8 @@ struct BenchRecording {
 };
 
 /// Makes one recording. The seed is counter-based: the same (seed, id) gives the same bytes in any
-/// order and on any number of workers. The random bits are the same on every platform, the numbers up
-/// to the last digit of its sin, cos, exp and log. Samples lie at k / (f samples_per_cycle).
+/// order and on any number of workers. The random bits are the same on every platform, the numbers
+/// up to the last digit of its sin, cos, exp and log. Samples lie at k / (f samples_per_cycle).
 /// Errors: usage for a setting out of its range, numerics where the truth is not finite.
 Result<BenchRecording> make_recording(const BenchTruth& truth, const BenchExcitation& excitation,
                                       const BenchSensors& sensors, std::uint64_t seed,
