@@ -1,0 +1,81 @@
+#include "comparison/recording_zero.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flexspline/core/simulate.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::string_view kPrefix = "zero[";
+
+double misfit(const ModelSpec& model, Motion motion, const ComparedSeries& series, double zero) {
+  for (double& position : motion.position) position -= zero;
+  const auto simulated = simulate_torque(model, motion);
+  if (!simulated) return std::numeric_limits<double>::infinity();
+  const double rms = compared_rms(series, *simulated, series.measured);
+  return std::isfinite(rms) ? rms : std::numeric_limits<double>::infinity();
+}
+
+/// Golden section between two points about a minimum.
+template <class Function>
+double golden_section(const Function& value, double low, double high) {
+  constexpr double kRatio = 0.6180339887498949;
+  double left = high - kRatio * (high - low);
+  double right = low + kRatio * (high - low);
+  double at_left = value(left);
+  double at_right = value(right);
+  for (int step = 0; step < 24; ++step) {
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      at_left = value(left = high - kRatio * (high - low));
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      at_right = value(right = low + kRatio * (high - low));
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+double search_zero(const ModelSpec& model, const Motion& motion, const ComparedSeries& series,
+                   double centre) {
+  const auto [low, high] = std::ranges::minmax(motion.position);
+  const double reach = 0.25 * (high - low);
+  constexpr int kSteps = 10;
+  const double step = reach / kSteps;
+  double best = centre;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    const double zero = centre + step * i;
+    const double value = misfit(model, motion, series, zero);
+    if (value >= smallest) continue;
+    smallest = value;
+    best = zero;
+  }
+  const auto value = [&](double zero) { return misfit(model, motion, series, zero); };
+  return golden_section(value, best - step, best + step);
+}
+
+}  // namespace
+
+Result<double> recording_zero(const Estimate& estimate, const std::string& id, const Motion& motion,
+                              const ComparedSeries& series) {
+  double sum = 0.0;
+  int count = 0;
+  for (const ParameterEstimate& parameter : estimate.parameters) {
+    if (!parameter.name.starts_with(kPrefix)) continue;
+    if (parameter.name == std::string(kPrefix) + id + "]") return parameter.value;
+    sum += parameter.value;
+    ++count;
+  }
+  if (count == 0) return 0.0;
+  return search_zero(estimate.model, motion, series, sum / count);
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "flexspline/core/effect.hpp"
+#include "flexspline/core/estimate.hpp"
+#include "flexspline/studies/metric.hpp"
+
+namespace flexspline::studies {
+
+/// Where a recording's motion has its zero, rad (m): 0 unless the estimate has a parameter
+/// zero[<id>] for each training recording; then that recording's own, or for a recording that was
+/// not trained on the zero of least squared error between measured and simulated effort, sought
+/// within a quarter of the motion's range about the mean of the trained zeros.
+Result<double> recording_zero(const Estimate& estimate, const std::string& id, const Motion& motion,
+                              const ComparedSeries& series);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,133 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "config/study_reader.hpp"
+#include "flexspline/core/nearest_name.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+std::vector<std::string_view> grid_ids(const StudyConfig& study) {
+  std::vector<std::string_view> ids;
+  for (const Grid& grid : study.grids) ids.emplace_back(grid.id);
+  return ids;
+}
+
+void check_grid(TomlSection& section, std::string_view key, const std::string& id,
+                const StudyConfig& study, std::vector<std::string_view> also) {
+  if (id.empty() || study.find_grid(id) != nullptr) return;
+  if (std::ranges::find(also, id) != also.end()) return;
+  std::ranges::copy(grid_ids(study), std::back_inserter(also));
+  section.refuse(key, fmt::format("'{}' = \"{}\" is not a grid of this study", section.name_of(key), id),
+                 suggestion(id, also));
+}
+
+void check_truth(TomlSection& section, const InputConfig& input) {
+  if (data::find_truth(input.truth)) return;
+  std::vector<std::string_view> names;
+  for (const data::TruthRow& row : data::truths()) names.push_back(row.id);
+  section.refuse("truth", fmt::format("there is no truth '{}'", input.truth),
+                 suggestion(input.truth, names));
+}
+
+/// The row of a method, or null after saying that there is none.
+const estimators::MethodRow* check_method(TomlSection& section, const std::string& id) {
+  if (id.empty()) return nullptr;
+  if (const auto row = estimators::find_method(id)) return *row;
+  std::vector<std::string_view> names;
+  for (const estimators::MethodRow& row : estimators::methods()) names.push_back(row.id);
+  section.refuse("method", fmt::format("there is no estimator method '{}'", id),
+                 suggestion(id, names));
+  return nullptr;
+}
+
+estimators::Options read_options(TomlSection& section, const estimators::MethodRow* method) {
+  estimators::Options options;
+  std::optional<TomlSection> table = section.table("options");
+  if (!table) return options;
+  for (const auto& [key, value] : table->raw()) {
+    const std::string name(key.str());
+    if (value.is_number()) options.numbers[name] = *value.value<double>();
+    else if (const auto* flag = value.as_boolean()) options.numbers[name] = flag->get() ? 1.0 : 0.0;
+    else if (const auto* word = value.as_string()) options.words[name] = word->get();
+    else table->refuse_at(value, fmt::format("'{}' is neither a number nor a word", table->name_of(name)));
+    if (method == nullptr) continue;
+    estimators::Options one;
+    if (options.numbers.contains(name)) one.numbers[name] = options.numbers[name];
+    if (options.words.contains(name)) one.words[name] = options.words[name];
+    const Result<void> checked = estimators::check_options(*method, one);
+    if (!checked) table->refuse_at(value, checked.error().problem, checked.error().remedy);
+  }
+  return options;
+}
+
+}  // namespace
+
+void check_id(TomlSection& section, const std::string& id, const std::vector<std::string>& before) {
+  if (std::ranges::find(before, id) != before.end()) {
+    section.refuse("id", fmt::format("'{}' = \"{}\" was given before", section.name_of("id"), id),
+                   "ids are unique");
+  }
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  if (!std::ranges::all_of(id, plain) || id.find("--") != std::string::npos || id.starts_with('.')) {
+    section.refuse("id", fmt::format("'{}' = \"{}\" cannot name a file", section.name_of("id"), id),
+                   "use letters, digits, _ . and single -");
+  }
+}
+
+InputConfig read_input(TomlSection& section, const StudyConfig& study,
+                       const std::filesystem::path& data_root) {
+  InputConfig input;
+  input.id = section.required_text("id");
+  input.title = section.text("title").value_or(input.id);
+  input.truth = section.text("truth").value_or("");
+  input.dataset = section.text("dataset").value_or("");
+  input.holdout = section.text("holdout").value_or("");
+  if (input.truth.empty() == input.dataset.empty()) {
+    section.refuse("id", fmt::format("input '{}' needs either a truth or a dataset", input.id),
+                   "give one of: truth = \"…\" (flexspline list truths), dataset = \"folder\"");
+  }
+  if (!input.truth.empty()) check_truth(section, input);
+  if (!input.dataset.empty() && !input.holdout.empty()) {
+    section.refuse("holdout", fmt::format("input '{}' is a data set and takes no hold-out grid", input.id),
+                   "mark recordings with split = \"holdout\" in its dataset.toml");
+  }
+  check_grid(section, "holdout", input.holdout, study, {});
+  if (input.dataset.is_relative() && !input.dataset.empty()) {
+    input.dataset = (data_root / input.dataset).lexically_normal();
+  }
+  section.refuse_unknown_keys();
+  return input;
+}
+
+EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study) {
+  EstimatorConfig estimator;
+  estimator.id = section.required_text("id");
+  estimator.title = section.text("title").value_or(estimator.id);
+  estimator.method = section.required_text("method");
+  estimator.train = section.text("train").value_or(estimator.train);
+  estimator.inputs = section.texts("inputs");
+  check_grid(section, "train", estimator.train, study, {kTrainAll, kTrainOne});
+  estimator.options = read_options(section, check_method(section, estimator.method));
+  std::vector<std::string_view> names;
+  for (const InputConfig& input : study.inputs) names.emplace_back(input.id);
+  for (const std::string& input : estimator.inputs) {
+    if (study.find_input(input) != nullptr) continue;
+    section.refuse("inputs", fmt::format("'{}' names no input '{}'", section.name_of("inputs"), input),
+                   suggestion(input, names));
+  }
+  const bool grid_wanted = estimator.train == kTrainAll || estimator.train == kTrainOne;
+  for (const InputConfig& input : study.inputs) {
+    const bool selected = estimator.inputs.empty() ||
+                          std::ranges::find(estimator.inputs, input.id) != estimator.inputs.end();
+    if (!grid_wanted || !selected || input.truth.empty()) continue;
+    section.refuse("train", fmt::format("estimator '{}' names no grid to train on, which input '{}' of the "
+                                        "virtual bench needs", estimator.id, input.id),
+                   "add train = \"<id of a grid>\"");
+  }
+  section.refuse_unknown_keys();
+  return estimator;
+}
+
+}  // namespace flexspline::studies

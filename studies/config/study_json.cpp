@@ -1,0 +1,68 @@
+#include "config/study_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace flexspline::studies {
+
+using nlohmann::ordered_json;
+
+ordered_json to_json(const BenchConfig& bench) {
+  return {{"encoder_step_rad", bench.sensors.encoder_step},
+          {"angle_noise", bench.sensors.angle_noise},
+          {"torque_noise_white", bench.sensors.torque_noise_white},
+          {"torque_noise_coloured", bench.sensors.torque_noise_coloured},
+          {"torque_noise_samples", bench.sensors.torque_noise_samples},
+          {"cycles", bench.cycles},
+          {"samples_per_cycle", bench.samples_per_cycle}};
+}
+
+ordered_json to_json(const std::vector<Loop>& loops) {
+  ordered_json list = ordered_json::array();
+  for (const Loop& loop : loops) {
+    ordered_json pair = ordered_json::array();
+    pair.push_back(loop.amplitude);
+    pair.push_back(loop.frequency_hz);
+    list.push_back(std::move(pair));
+  }
+  return list;
+}
+
+ordered_json to_json(const estimators::Options& options) {
+  ordered_json object = ordered_json::object();
+  for (const auto& [name, value] : options.numbers) object[name] = value;
+  for (const auto& [name, value] : options.words) object[name] = value;
+  return object;
+}
+
+ordered_json to_json(const StudyConfig& study) {
+  ordered_json object = {{"name", study.name},
+                         {"title", study.title},
+                         {"seed", study.seed},
+                         {"replicates", study.replicates},
+                         {"paper", study.paper},
+                         {"bench", to_json(study.bench)}};
+  ordered_json& grids = object["grid"] = ordered_json::array();
+  for (const Grid& grid : study.grids) {
+    grids.push_back({{"id", grid.id}, {"loops_rad_hz", to_json(grid.loops)}});
+  }
+  ordered_json& inputs = object["input"] = ordered_json::array();
+  for (const InputConfig& input : study.inputs) {
+    inputs.push_back({{"id", input.id},
+                      {"title", input.title},
+                      {"truth", input.truth},
+                      {"dataset", input.dataset.generic_string()},
+                      {"holdout", input.holdout}});
+  }
+  ordered_json& rows = object["estimator"] = ordered_json::array();
+  for (const EstimatorConfig& row : study.estimators) {
+    rows.push_back({{"id", row.id},
+                    {"title", row.title},
+                    {"method", row.method},
+                    {"train", row.train},
+                    {"options", to_json(row.options)},
+                    {"inputs", row.inputs}});
+  }
+  return object;
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/data/bench.hpp"
+#include "flexspline/data/dataset.hpp"
+#include "flexspline/estimators/method.hpp"
+
+namespace flexspline::studies {
+
+/// One sine of the locked-rotor experiment, at the output.
+struct Loop {
+  double amplitude = 0.0;  ///< rad
+  double frequency_hz = 0.0;
+
+  friend bool operator==(const Loop&, const Loop&) = default;
+};
+
+/// "a0.2000-f0.00500": amplitude in degrees, frequency in hertz.
+std::string recording_id(const Loop& loop);
+
+/// A named set of loops: amplitudes x frequencies, or a list.
+struct Grid {
+  std::string id;
+  std::vector<Loop> loops;
+};
+
+/// How the virtual bench records every input that has a truth.
+struct BenchConfig {
+  data::BenchSensors sensors;
+  int cycles = 5;  ///< the first of them runs up from rest
+  int samples_per_cycle = 500;
+};
+
+/// Where recordings come from: a truth of the virtual bench, or a folder in the data-set format.
+struct InputConfig {
+  std::string id;
+  std::string title;
+  std::string truth;              ///< id in the catalogue of truths; empty for a data set
+  std::filesystem::path dataset;  ///< as found, relative paths already resolved
+  std::string holdout;            ///< id of the grid that is evaluated and never trained on
+};
+
+/// What an estimator of a study trains on, of a data set.
+inline constexpr std::string_view kTrainAll = "all";  ///< every training recording
+inline constexpr std::string_view kTrainOne = "one";  ///< the one with the largest motion
+
+/// A method with its options and its training recordings.
+struct EstimatorConfig {
+  std::string id;
+  std::string title;
+  std::string method;
+  std::string train = std::string(kTrainAll);  ///< id of a grid, or kTrainAll, or kTrainOne
+  estimators::Options options;
+  std::vector<std::string> inputs;  ///< only these; empty: all
+};
+
+/// A study as read and understood. SI units.
+struct StudyConfig {
+  std::filesystem::path file;
+  std::string name;
+  std::string title;
+  std::uint64_t seed = 1;
+  int replicates = 1;
+  bool paper = false;  ///< recompute the facts of Dhaouadi and Ghorbel (2003) beside the cases
+  BenchConfig bench;
+  std::vector<Grid> grids;
+  std::vector<InputConfig> inputs;
+  std::vector<EstimatorConfig> estimators;
+
+  const Grid* find_grid(std::string_view id) const;
+  const InputConfig* find_input(std::string_view id) const;
+};
+
+/// A study as far as it could be read: everything wrong at once.
+struct StudyReading {
+  std::optional<StudyConfig> study;  ///< present only when there are no errors
+  std::vector<data::Finding> errors;
+};
+
+/// Reads a study of format "flexspline-study/1" (docs/study-file.md). Relative data-set paths start
+/// at data_root, or at the study file's folder where it is empty.
+/// Errors: input_missing when the file cannot be read. What is wrong in it is in the reading.
+Result<StudyReading> read_study(const std::filesystem::path& file,
+                                const std::filesystem::path& data_root = {});
+
+/// The same for callers that go no further on a failure.
+/// Errors: input_missing, or bad_data with every finding.
+Result<StudyConfig> load_study(const std::filesystem::path& file,
+                               const std::filesystem::path& data_root = {});
+
+/// The configuration as understood, as TOML with every default written out.
+std::string describe_study(const StudyConfig& study);
+
+}  // namespace flexspline::studies

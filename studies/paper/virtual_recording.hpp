@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "flexspline/core/estimate.hpp"
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/recording.hpp"
+#include "flexspline/core/signals.hpp"
+#include "flexspline/studies/study_config.hpp"
+
+namespace flexspline::studies {
+
+/// The paper's experiment on the virtual bench: its recording is not public, Table I is all that is
+/// left of it.
+struct PaperExperiment {
+  Recording recording;   ///< motor angle and torque as the sensors show them, SI
+  TorsionRecord record;  ///< the same as torque over torsion
+  SineFit sine;          ///< of the torsion
+  Estimate estimate;     ///< by the paper's own method
+};
+
+/// Errors: the truth table_i, the bench or the method midpoint_polynomial fail.
+Result<PaperExperiment> repeat_experiment(const StudyConfig& study);
+
+/// Eqs. (15)-(19) on all steady cycles: at every torsion the mean and half the difference of the two
+/// torques. deg, deg/s, Nm.
+struct MidpointLocus {
+  std::vector<double> torsion;
+  std::vector<double> mean;
+  std::vector<double> speed;
+  std::vector<double> half_difference;
+};
+MidpointLocus midpoint_locus(const PaperExperiment& experiment);
+
+/// A coefficient in Table I's units, with its standard deviation (NaN where the method gives none).
+struct Recovered {
+  double value;
+  double std;
+};
+std::array<Recovered, 5> recovered_coefficients(const Estimate& estimate, const LawSpec& law);
+
+}  // namespace flexspline::studies
