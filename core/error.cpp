@@ -7,7 +7,8 @@ namespace flexspline {
 
 std::string Error::message() const {
   std::string text;
-  for (auto place = context.rbegin(); place != context.rend(); ++place) text.append(*place).append(": ");
+  for (auto place = context.rbegin(); place != context.rend(); ++place)
+    text.append(*place).append(": ");
   text += problem;
   if (!remedy.empty()) text.append("; ").append(remedy);
   return text;

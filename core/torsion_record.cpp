@@ -51,15 +51,16 @@ Result<void> add_specimen_motion(const Recording& recording, TorsionRecord& reco
   if (!quantity) return missing(recording, Rig::specimen, "torsion, displacement or angle");
   record.motion = *recording.find(*quantity);
   record.travels = *quantity == Quantity::angle;
+  record.linear = *quantity == Quantity::displacement;
   return {};
 }
 
 Result<void> add_effort(Rig rig, const Recording& recording, TorsionRecord& record) {
   const bool specimen = rig == Rig::specimen;
   const auto quantity =
-      specimen ? first_of(recording,
-                          {Quantity::transmitted_torque, Quantity::torque, Quantity::force})
-               : first_of(recording, {Quantity::transmitted_torque});
+      specimen
+          ? first_of(recording, {Quantity::transmitted_torque, Quantity::torque, Quantity::force})
+          : first_of(recording, {Quantity::transmitted_torque});
   if (!quantity) {
     return missing(recording, rig,
                    specimen ? "transmitted_torque, torque or force" : "transmitted_torque");
@@ -80,15 +81,14 @@ std::vector<bool> validity(const Recording& recording) {
 
 Result<TorsionRecord> torsion_record(const RecordingSet& set, const Recording& recording) {
   if (set.rig == Rig::servo) {
-    return failure(ErrorCode::input_missing,
-                   "recording " + recording.id +
-                       ": the servo rig measures no torque across the transmission",
-                   "use recordings of a locked, free or specimen rig");
+    return failure(
+        ErrorCode::input_missing,
+        "recording " + recording.id + ": the servo rig measures no torque across the transmission",
+        "use recordings of a locked, free or specimen rig");
   }
   TorsionRecord record;
-  const Result<void> motion = set.rig == Rig::specimen
-                                  ? add_specimen_motion(recording, record)
-                                  : add_drive_motion(set, recording, record);
+  const Result<void> motion = set.rig == Rig::specimen ? add_specimen_motion(recording, record)
+                                                       : add_drive_motion(set, recording, record);
   if (!motion) return tl::unexpected<Error>(motion.error());
   const Result<void> effort = add_effort(set.rig, recording, record);
   if (!effort) return tl::unexpected<Error>(effort.error());

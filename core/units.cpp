@@ -55,7 +55,7 @@ constexpr Unit kUnits[] = {
     {"kNm", torque, 1e3, 0.0},
     {"Ncm", torque, 1e-2, 0.0},
     {"Nmm", torque, 1e-3, 0.0},
-    {"lbf in", torque, kPound * kInch, 0.0},
+    {"lbf in", torque, kPound* kInch, 0.0},
     {"N", force, 1.0, 0.0},
     {"mN", force, 1e-3, 0.0},
     {"kN", force, 1e3, 0.0},

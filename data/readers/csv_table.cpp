@@ -45,8 +45,7 @@ bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") ==
 /// Reads one file; its state is the line at hand.
 class Parser {
  public:
-  Parser(std::string_view text, const CsvColumns& wanted, std::string file,
-         DatasetReading& reading)
+  Parser(std::string_view text, const CsvColumns& wanted, std::string file, DatasetReading& reading)
       : rest_(text), wanted_(wanted), file_(std::move(file)), reading_(reading) {}
 
   CsvTable parse() {

@@ -26,7 +26,8 @@ struct CsvColumns {
 /// quotes, spaces around cells and empty lines at the end are taken as they come; separated by
 /// semicolons, numbers may have a decimal comma, with a note.
 /// Findings: no header, a column twice, a row with another number of cells, a cell that is not a
-/// finite number, a value that does not increase where it has to. After 20 of them in a file the rest is counted.
+/// finite number, a value that does not increase where it has to. After 20 of them in a file the
+/// rest is counted.
 CsvTable parse_csv(std::string_view text, const CsvColumns& wanted, const std::string& file,
                    DatasetReading& reading);
 

@@ -15,9 +15,9 @@ namespace {
 constexpr std::string_view kSchema = "flexspline-dataset/1";
 constexpr std::array<std::string_view, 9> kKeys = {
     "schema", "name", "rig", "license", "source", "note", "constants", "channels", "recording"};
-constexpr std::array<std::string_view, 6> kConstants = {"gear_ratio",         "motor_inertia_kgm2",
-                                                        "load_inertia_kgm2",  "load_mass_kg",
-                                                        "arm_length_m",       "nominal_supply_V"};
+constexpr std::array<std::string_view, 6> kConstants = {"gear_ratio",        "motor_inertia_kgm2",
+                                                        "load_inertia_kgm2", "load_mass_kg",
+                                                        "arm_length_m",      "nominal_supply_V"};
 
 /// False when the file is of another format, of which nothing more can be said.
 bool check_schema(TomlReader& reader, const toml::table& root) {
@@ -49,31 +49,35 @@ std::map<std::string, double> parse_constants(TomlReader& reader, const toml::ta
     if (const auto value = reader.finite(node, name)) values[name] = *value;
     if (std::ranges::find(kConstants, name) != kConstants.end()) continue;
     if (const auto nearest = nearest_name(name, kConstants)) {
-      notes.push_back(reader.at(key.source(), fmt::format("constant '{}' has no meaning here", name),
+      notes.push_back(reader.at(key.source(),
+                                fmt::format("constant '{}' has no meaning here", name),
                                 fmt::format("did you mean '{}'?", *nearest)));
     }
   }
   return values;
 }
 
-void check_constants(TomlReader& reader, Rig rig, const toml::source_region& where,
-                     const std::map<std::string, double>& constants) {
+/// What is written but refused is not missing as well.
+void check_gear_ratio(TomlReader& reader, const toml::table& root, Rig rig,
+                      const std::map<std::string, double>& constants) {
+  const toml::node* table = root.get("constants");
+  const toml::node* written = root["constants"]["gear_ratio"].node();
   const auto ratio = constants.find("gear_ratio");
   if (ratio != constants.end() && ratio->second <= 0.0) {
-    reader.refuse(where, fmt::format("gear_ratio is {}, which is not positive", ratio->second),
+    reader.refuse(written->source(),
+                  fmt::format("gear_ratio is {}, which is not positive", ratio->second),
                   "give motor turns per output turn; direction belongs into the channels' signs");
   }
-  if (ratio == constants.end() && (rig == Rig::locked || rig == Rig::free)) {
-    reader.refuse(where, fmt::format("no gear_ratio, which rig '{}' needs", name_of(rig)),
+  if (written == nullptr && (rig == Rig::locked || rig == Rig::free)) {
+    reader.refuse((table == nullptr ? root : *table).source(),
+                  fmt::format("no gear_ratio, which rig '{}' needs", name_of(rig)),
                   "add gear_ratio = … below [constants]");
   }
 }
 
 void check_rig(TomlReader& reader, const toml::table& root, Rig rig, Description& description,
                bool all_channels) {
-  const toml::node* constants = root.get("constants");
-  check_constants(reader, rig, (constants == nullptr ? root : *constants).source(),
-                  description.set.constants);
+  check_gear_ratio(reader, root, rig, description.set.constants);
   description.set.display = display_units(rig, description.channels);
   // A channel that was refused is not missing as well.
   const toml::node* channels = root.get("channels");

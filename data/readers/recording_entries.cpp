@@ -13,9 +13,8 @@ namespace {
 
 constexpr std::string_view kAmplitude = "amplitude_";
 constexpr std::array<std::string_view, 9> kKeys = {
-    "id",    "file",         "start_s",       "excitation",
-    "split", "frequency_hz", "amplitude_deg", "amplitude",
-    "note"};
+    "id",           "file",          "start_s",   "excitation", "split",
+    "frequency_hz", "amplitude_deg", "amplitude", "note"};
 
 void check_entry_keys(TomlReader& reader, const toml::table& entry) {
   for (const auto& [key, value] : entry) {
@@ -140,10 +139,10 @@ std::vector<RecordingEntry> parse_recordings(TomlReader& reader, const toml::arr
     if (const toml::node* id = entry->get("id"); id != nullptr && id->is_string()) {
       const std::string name = id->value_or(std::string());
       if (const auto line = ids.line_of(name, line_of(*id))) {
-        reader.refuse(id->source(),
-                      fmt::format("two recordings have the id '{}', the other on line {}", name,
-                                  *line),
-                      "give each recording an id of its own");
+        reader.refuse(
+            id->source(),
+            fmt::format("two recordings have the id '{}', the other on line {}", name, *line),
+            "give each recording an id of its own");
       }
     }
     if (const toml::node* name = entry->get("file"); name != nullptr && name->is_string()) {

@@ -76,10 +76,10 @@ Recording read_table(const RecordingEntry& entry, const std::vector<Channel>& ch
     add_channel(recording, channel, std::move(table.columns[index]));
   }
   if (table.rows < kFewestSamples) {
-    reading.errors.push_back({file, static_cast<int>(table.rows) + 1, 1,
-                              fmt::format("{} samples, where {} are the fewest", table.rows,
-                                          kFewestSamples),
-                              "record for longer"});
+    reading.errors.push_back(
+        {file, static_cast<int>(table.rows) + 1, 1,
+         fmt::format("{} samples, where {} are the fewest", table.rows, kFewestSamples),
+         "record for longer"});
   }
   return recording;
 }

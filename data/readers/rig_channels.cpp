@@ -16,7 +16,9 @@ const Channel* find(const Channels& channels, Quantity quantity) {
   return found == channels.end() ? nullptr : &*found;
 }
 
-bool has(const Channels& channels, Quantity quantity) { return find(channels, quantity) != nullptr; }
+bool has(const Channels& channels, Quantity quantity) {
+  return find(channels, quantity) != nullptr;
+}
 
 std::string joined(Quantities quantities) {
   std::string names;
@@ -74,12 +76,18 @@ std::vector<std::string> rig_complaints(Rig rig, const Channels& channels) {
   std::vector<std::string> complaints;
   require(rig, channels, {Quantity::time}, complaints);
   switch (rig) {
-    case Rig::locked: require(rig, channels, {motor_angle, transmitted_torque}, complaints); break;
+    case Rig::locked:
+      require(rig, channels, {motor_angle, transmitted_torque}, complaints);
+      break;
     case Rig::free:
       require(rig, channels, {motor_angle, load_angle, motor_torque}, complaints);
       break;
-    case Rig::specimen: complain_of_specimen(channels, complaints); break;
-    case Rig::servo: complain_of_servo(channels, complaints); break;
+    case Rig::specimen:
+      complain_of_specimen(channels, complaints);
+      break;
+    case Rig::servo:
+      complain_of_servo(channels, complaints);
+      break;
   }
   return complaints;
 }

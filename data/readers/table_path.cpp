@@ -27,7 +27,8 @@ tl::unexpected<Error> refused(const fs::path& file, const std::string& why,
 }  // namespace
 
 Result<fs::path> table_path(const fs::path& folder, const fs::path& file) {
-  const std::string inside = "put the table into the folder of dataset.toml, and name it from there";
+  const std::string inside =
+      "put the table into the folder of dataset.toml, and name it from there";
   if (file.is_absolute()) return refused(file, "is an absolute path", inside);
   if (file.empty() || climbs(file)) return refused(file, "climbs out of the folder", inside);
   const fs::path path = folder / file;

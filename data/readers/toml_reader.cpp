@@ -38,8 +38,7 @@ Finding TomlReader::at(const toml::source_region& where, std::string problem,
           std::move(problem), std::move(remedy)};
 }
 
-void TomlReader::refuse(const toml::source_region& where, std::string problem,
-                        std::string remedy) {
+void TomlReader::refuse(const toml::source_region& where, std::string problem, std::string remedy) {
   errors_.push_back(at(where, std::move(problem), std::move(remedy)));
 }
 
@@ -104,7 +103,7 @@ void TomlReader::refuse_type(const toml::node& node, std::string_view name,
                              std::string_view wanted) {
   std::ostringstream type;
   type << node.type();
-  refuse(node.source(), fmt::format("{} is a {}: {}", name, type.str(), written(node)),
+  refuse(node.source(), fmt::format("{} is {}, of type {}", name, written(node), type.str()),
          fmt::format("give {}", wanted));
 }
 

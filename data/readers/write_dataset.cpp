@@ -76,7 +76,8 @@ std::string table_text(const Recording& recording, const std::vector<Column>& co
 std::string file_stem(const std::string& id, std::set<std::string>& taken) {
   std::string stem = id;
   std::ranges::replace_if(
-      stem, [](unsigned char letter) { return !std::isalnum(letter) && !std::strchr("-_.+", letter); },
+      stem,
+      [](unsigned char letter) { return !std::isalnum(letter) && !std::strchr("-_.+", letter); },
       '_');
   if (stem.starts_with('.')) stem.front() = '_';
   while (!taken.insert(stem).second) stem += "_";
@@ -85,9 +86,9 @@ std::string file_stem(const std::string& id, std::set<std::string>& taken) {
 
 std::string entry_text(const Recording& recording, const std::string& file,
                        const DisplayUnits& display) {
-  std::string text = fmt::format("\n[[recording]]\nid = {}\nfile = {}\nstart_s = {}\n",
-                                 toml_quoted(recording.id), toml_quoted(file),
-                                 toml_number(recording.start_s));
+  std::string text =
+      fmt::format("\n[[recording]]\nid = {}\nfile = {}\nstart_s = {}\n", toml_quoted(recording.id),
+                  toml_quoted(file), toml_number(recording.start_s));
   if (!recording.excitation.empty()) {
     text += fmt::format("excitation = {}\n", toml_quoted(recording.excitation));
   }

@@ -1,0 +1,62 @@
+#include "flexspline/data/artefact.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "flexspline/core/write_file.hpp"
+#include "flexspline/data/checksum.hpp"
+
+namespace flexspline::data {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Bytes that are no UTF-8 (a name out of an old file) are replaced, so that dumping cannot fail.
+std::string canonical(const Json& content) {
+  return content.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+tl::unexpected<Error> refused(const std::filesystem::path& path, const std::string& why) {
+  return failure(ErrorCode::bad_data, fmt::format("{}: {}", path.string(), why),
+                 "make it again with the command that wrote it");
+}
+
+bool has_text(const Json& content, std::string_view key, std::string_view text) {
+  const auto found = content.find(key);
+  return found != content.end() && found->is_string() &&
+         found->get_ref<const std::string&>() == text;
+}
+
+std::string shown(const Json& content, std::string_view key) {
+  const auto found = content.find(key);
+  return found == content.end() ? "none" : canonical(*found);
+}
+
+}  // namespace
+
+Result<void> write_artefact(const std::filesystem::path& path, Json content) {
+  content.erase("sha256");
+  content["sha256"] = sha256_hex(canonical(content));
+  return write_file(path, canonical(content) + "\n");
+}
+
+Result<Json> read_artefact(const std::filesystem::path& path, std::string_view schema) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return tl::unexpected<Error>(text.error());
+  Json content = Json::parse(*text, nullptr, false);
+  if (!content.is_object()) return refused(path, "not a JSON object; it may be cut short");
+  if (!has_text(content, "schema", schema)) {
+    return refused(path, fmt::format("schema is {}, not \"{}\"", shown(content, "schema"), schema));
+  }
+  const Json written = content.value("sha256", Json());
+  content.erase("sha256");
+  const std::string sum = sha256_hex(canonical(content));
+  if (written != sum) {
+    return refused(path, fmt::format("checksum does not hold: sha256 is {}, the content gives {}",
+                                     canonical(written), sum));
+  }
+  return content;
+}
+
+}  // namespace flexspline::data

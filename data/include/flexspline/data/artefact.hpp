@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "flexspline/core/error.hpp"
+
+namespace flexspline::data {
+
+/// Writes an artefact: the content, whose first key is to be "schema", with "sha256" as its last
+/// key, the SHA-256 of the canonical dump (indent = -1) without it. NaN and infinity become null.
+/// Errors: cannot_write.
+Result<void> write_artefact(const std::filesystem::path& path, nlohmann::ordered_json content);
+
+/// The content of an artefact without its checksum.
+/// Errors: input_missing when there is no such file; bad_data, naming the file, when it is not
+/// JSON, has another schema, or its checksum does not hold.
+Result<nlohmann::ordered_json> read_artefact(const std::filesystem::path& path,
+                                             std::string_view schema);
+
+}  // namespace flexspline::data

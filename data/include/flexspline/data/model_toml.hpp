@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/model_spec.hpp"
+
+namespace flexspline::data {
+
+/// A model as text of a MODEL.toml, schema "flexspline-model/1" (docs/model-file.md). Numbers read
+/// back to the same bits.
+std::string model_toml(const ModelSpec& model);
+
+/// Reads the text of a MODEL.toml; file names it in messages.
+/// Errors: bad_data with every finding at once, by file, line and column: unknown or missing keys,
+/// laws and effects that do not exist, numbers that do not fit their law.
+Result<ModelSpec> parse_model(std::string_view text, const std::string& file);
+
+/// Errors: cannot_write.
+Result<void> write_model(const std::filesystem::path& path, const ModelSpec& model);
+
+/// Errors: input_missing, and those of parse_model.
+Result<ModelSpec> read_model(const std::filesystem::path& path);
+
+}  // namespace flexspline::data
