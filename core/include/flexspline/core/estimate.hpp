@@ -45,10 +45,10 @@ struct Identifiability {
 /// One estimated function with its pointwise 95 % band.
 struct FunctionBand {
   std::string function;  ///< f | g_inverse | h
-  std::vector<double> argument;
-  std::vector<double> value;
-  std::vector<double> lower;
-  std::vector<double> upper;
+  std::vector<double> argument{};
+  std::vector<double> value{};
+  std::vector<double> lower{};
+  std::vector<double> upper{};
   double valid_from = kNotComputed;  ///< the domain the recordings support
   double valid_to = kNotComputed;
 };

@@ -1,0 +1,43 @@
+#include <chrono>
+
+#include "flexspline/estimators/method.hpp"
+#include "midpoint/locus.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+Result<Estimate> fit(const FitProblem& problem) {
+  const auto started = std::chrono::steady_clock::now();
+  std::vector<MidpointLocus> loci;
+  std::vector<TorsionRecord> used;
+  std::string left_out;
+  for (const auto& record : problem.records) {
+    auto locus = midpoint_locus(record);
+    if (!locus) {
+      left_out += (left_out.empty() ? "left out: " : "; ") + locus.error().message();
+      continue;
+    }
+    loci.push_back(std::move(*locus));
+    used.push_back(record);
+  }
+  if (loci.empty()) {
+    return failure(ErrorCode::numerics, "no recording has a midpoint locus", left_out);
+  }
+  Estimate estimate = polynomial_estimate("midpoint_pooled", loci, used);
+  if (!left_out.empty()) estimate.notes.push_back(left_out);
+  estimate.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return estimate;
+}
+
+}  // namespace
+
+MethodRow describe_midpoint_pooled() {
+  return {.id = "midpoint_pooled",
+          .summary = "the paper's fit to the midpoint loci of all training loops at once",
+          .source = "Dhaouadi and Ghorbel (2003), eqs. (15)-(25), pooled",
+          .options = {},
+          .fit = fit};
+}
+
+}  // namespace flexspline::estimators

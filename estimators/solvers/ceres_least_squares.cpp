@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include <ceres/ceres.h>
+
+#include "solvers/least_squares.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr double kAtBound = 1e-6;  // distance from a bound, in scales, that counts as on it
+
+// What the blocks tell beside their values: how often they ran, and why one last failed.
+struct Log {
+  std::atomic<long> evaluations{0};
+  std::mutex mutex;
+  std::string last_failure;
+};
+
+class Block final : public ceres::CostFunction {
+ public:
+  Block(const LeastSquaresProblem& problem, std::size_t index,
+        std::span<const BoundedParameter> parameters, Log& log)
+      : problem_(problem), index_(index), parameters_(parameters), log_(log) {
+    set_num_residuals(static_cast<int>(problem.residuals(index)));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
+  }
+
+  bool Evaluate(double const* const* scaled, double* residuals, double** jacobians) const override {
+    const std::size_t count = parameters_.size();
+    const auto rows = static_cast<std::size_t>(num_residuals());
+    std::vector<double> p(count);
+    for (std::size_t k = 0; k < count; ++k) p[k] = scaled[0][k] * parameters_[k].scale;
+    double* jacobian = jacobians != nullptr ? jacobians[0] : nullptr;
+    const std::span<double> wanted(jacobian, jacobian != nullptr ? rows * count : 0);
+    ++log_.evaluations;
+    const auto done = problem_.evaluate(index_, p, {residuals, rows}, wanted);
+    if (!done) {
+      const std::lock_guard lock(log_.mutex);
+      log_.last_failure = done.error().message();
+      return false;
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] *= parameters_[i % count].scale;
+    return true;
+  }
+
+ private:
+  const LeastSquaresProblem& problem_;
+  std::size_t index_;
+  std::span<const BoundedParameter> parameters_;
+  Log& log_;
+};
+
+Termination termination_of(const ceres::Solver::Summary& summary) {
+  switch (summary.termination_type) {
+    case ceres::CONVERGENCE:
+      return Termination::converged;
+    case ceres::NO_CONVERGENCE:
+      return Termination::iteration_limit;
+    default:
+      return Termination::failed;
+  }
+}
+
+ceres::Solver::Options solver_options(const SolverSettings& settings) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = settings.max_iterations;
+  options.function_tolerance = settings.function_tolerance;
+  options.parameter_tolerance = settings.parameter_tolerance;
+  options.gradient_tolerance = 1e-14;
+  options.num_threads = settings.threads;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+}  // namespace
+
+Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
+                                      std::span<const BoundedParameter> parameters,
+                                      const SolverSettings& settings) {
+  std::vector<double> x(parameters.size());
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const auto& parameter = parameters[k];
+    x[k] = std::clamp(parameter.start, parameter.lower, parameter.upper) / parameter.scale;
+  }
+  Log log;
+  ceres::Problem ceres_problem;
+  for (std::size_t b = 0; b < problem.blocks(); ++b) {
+    ceres_problem.AddResidualBlock(new Block(problem, b, parameters, log), nullptr, x.data());
+  }
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const auto& parameter = parameters[k];
+    const int index = static_cast<int>(k);
+    if (std::isfinite(parameter.lower)) {
+      ceres_problem.SetParameterLowerBound(x.data(), index, parameter.lower / parameter.scale);
+    }
+    if (std::isfinite(parameter.upper)) {
+      ceres_problem.SetParameterUpperBound(x.data(), index, parameter.upper / parameter.scale);
+    }
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(settings), &ceres_problem, &summary);
+  if (summary.termination_type == ceres::FAILURE) {
+    return failure(ErrorCode::numerics,
+                   "the fit could not go on: " +
+                       (log.last_failure.empty() ? summary.message : log.last_failure),
+                   "start nearer, or leave the recording out");
+  }
+  LeastSquaresSolution solution;
+  solution.termination = termination_of(summary);
+  solution.cost = summary.final_cost;
+  solution.iterations = static_cast<int>(summary.iterations.size());
+  solution.evaluations = log.evaluations;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const auto& parameter = parameters[k];
+    solution.p.push_back(x[k] * parameter.scale);
+    solution.bound_active.push_back(x[k] - parameter.lower / parameter.scale < kAtBound ||
+                                    parameter.upper / parameter.scale - x[k] < kAtBound);
+  }
+  return solution;
+}
+
+}  // namespace flexspline::estimators

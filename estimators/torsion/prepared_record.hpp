@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "flexspline/core/signals.hpp"
+#include "flexspline/core/spline.hpp"
+
+namespace flexspline::estimators {
+
+/// A record with what is computed once of it: the smooth signals behind it, its noise, and the
+/// samples that get a residual.
+struct PreparedRecord {
+  TorsionRecord record;
+  Reconstruction smooth;
+  Spline position, velocity, acceleration, effort;
+  std::vector<std::size_t> rows;  ///< valid samples, thinned evenly where there are very many
+  double motion_sigma = 0.0;      ///< of measured motion, never below a step of its encoder
+  double effort_sigma = 0.0;
+};
+
+/// Errors: numerics, where a record cannot be reconstructed.
+Result<std::vector<PreparedRecord>> prepare(const std::vector<TorsionRecord>& records,
+                                            std::size_t most_rows);
+
+/// Largest |motion|, about half_range_centre's centre where zeros are free, and |velocity|.
+struct Ranges {
+  double motion = 0.0;
+  double velocity = 0.0;
+  double acceleration = 0.0;
+  double effort = 0.0;
+  double lowest_motion = 0.0;
+  double highest_motion = 0.0;
+  double shortest_period = 0.0;
+};
+Ranges ranges_of(const std::vector<PreparedRecord>& records, bool centred);
+
+/// The middle of a record's motion.
+double centre_of(const PreparedRecord& record);
+
+}  // namespace flexspline::estimators

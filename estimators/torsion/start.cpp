@@ -1,0 +1,162 @@
+#include "torsion/start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/nonnegative.hpp"
+#include "torsion/torque_residuals.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSlopeFloor = 1e-3;      // of peak effort over range: keeps g defined
+constexpr double kMotionMargin = 1.02;    // knots end a little beyond the data
+constexpr double kVelocityMargin = 1.15;  // v/h may exceed the fastest v
+constexpr double kDelayShare = 0.05;      // of the shortest period
+constexpr std::size_t kTravelIntervals = 24;
+
+const std::vector<double> kMotionKnots = {0.25, 0.5, 0.75};
+// Even in steps of the eye, and in decades: dry friction turns close to zero speed.
+const std::vector<std::vector<double>> kVelocityKnots = {
+    {0.08, 0.2, 0.4, 0.7}, {0.004, 0.012, 0.035, 0.1, 0.3, 0.6}};
+
+LawSpec motion_law(const Ranges& ranges, bool travels, std::size_t& size) {
+  const double scale = ranges.motion * kMotionMargin;
+  if (!travels) {
+    size = 2 * (kMotionKnots.size() + 3);
+    return {.law = "monotone_spline", .scale = scale, .knots = kMotionKnots, .coefficients = {},
+            .valid_to = ranges.motion};
+  }
+  size = kTravelIntervals + 3;
+  return {.law = "free_spline",
+          .scale = scale,
+          .knots = {ranges.lowest_motion / scale, ranges.highest_motion / scale},
+          .coefficients = {},
+          .valid_to = ranges.motion};
+}
+
+TorsionLayout layout_for(const std::vector<PreparedRecord>& records, const Ranges& ranges,
+                         const std::vector<double>& velocity_knots, FreeTerms free) {
+  const bool travels = records.front().record.travels;
+  std::size_t f_size = 0;
+  LawSpec f = motion_law(ranges, travels, f_size);
+  const LawSpec g{.law = "monotone_spline",
+                  .scale = ranges.velocity * kVelocityMargin,
+                  .knots = velocity_knots,
+                  .coefficients = {},
+                  .valid_to = ranges.velocity};
+  std::vector<std::string> ids;
+  for (const auto& one : records) ids.push_back(one.record.id);
+  const double h_scale = ranges.motion * kMotionMargin;
+  return TorsionLayout(std::move(f), f_size, g, 2 * (velocity_knots.size() + 3), h_scale,
+                       kModulationTerms, std::move(ids), free);
+}
+
+void start_nuisances(const TorsionLayout& layout, const std::vector<PreparedRecord>& records,
+                     std::span<double> p) {
+  const auto zeros = layout.zero_group.of(p);
+  for (std::size_t k = 0; k < zeros.size(); ++k) zeros[k] = centre_of(records[k]);
+  const auto initial = layout.initial_group.of(p);
+  for (std::size_t k = 0; k < initial.size(); ++k) {
+    initial[k] = records[k].smooth.motion.position.front();
+  }
+}
+
+struct LinearFit {
+  std::vector<double> p;
+  double criterion = kInfinity;
+};
+
+// The residual is linear in f, g^-1, inertia and offset where h = 1.
+Result<LinearFit> linear_fit(const TorsionLayout& layout,
+                             const std::vector<PreparedRecord>& records) {
+  LinearFit fit{.p = std::vector<double>(layout.size(), 0.0)};
+  start_nuisances(layout, records, fit.p);
+  const TorqueResiduals problem(layout, records);
+  const auto at = linearise(problem, fit.p);
+  if (!at) return tl::unexpected(at.error());
+
+  std::vector<Eigen::Index> linear;
+  for (const Group* group : {&layout.f_group, &layout.g_group, &layout.inertia_group,
+                             &layout.offset_group}) {
+    for (std::size_t k = 0; k < group->count; ++k) {
+      linear.push_back(static_cast<Eigen::Index>(group->first + k));
+    }
+  }
+  const auto bounds = bounded_parameters(layout, records, fit.p);
+  Eigen::VectorXd lower(static_cast<Eigen::Index>(linear.size()));
+  for (std::size_t k = 0; k < linear.size(); ++k) {
+    const double bound = bounds[static_cast<std::size_t>(linear[k])].lower;
+    lower[static_cast<Eigen::Index>(k)] =
+        static_cast<std::size_t>(linear[k]) < layout.g_group.first + layout.g_group.count
+            ? bound
+            : -kInfinity;
+  }
+  const Eigen::MatrixXd j = at->jacobian(Eigen::all, linear);
+  const Eigen::VectorXd x =
+      bounded_least_squares(j.transpose() * j, -(j.transpose() * at->residual), lower);
+  for (std::size_t k = 0; k < linear.size(); ++k) {
+    fit.p[static_cast<std::size_t>(linear[k])] += x[static_cast<Eigen::Index>(k)];
+  }
+  const double n = static_cast<double>(at->residual.size());
+  const double rss = (at->residual + j * x).squaredNorm();
+  fit.criterion = n * std::log(rss / n) + static_cast<double>(linear.size()) * std::log(n);
+  return fit;
+}
+
+}  // namespace
+
+std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
+                                                 const std::vector<PreparedRecord>& records,
+                                                 std::span<const double> p) {
+  const Ranges ranges = ranges_of(records, layout.zero_group.present());
+  const bool travels = records.front().record.travels;
+  std::vector<BoundedParameter> result(layout.size());
+  auto fill = [&](const Group& group, double lower, double upper, double scale) {
+    for (std::size_t k = group.first; k < group.first + group.count; ++k) {
+      result[k] = {.start = p[k], .lower = lower, .upper = upper, .scale = scale};
+    }
+  };
+  const double floor = kSlopeFloor * ranges.effort;
+  const double delay = kDelayShare * ranges.shortest_period;
+  const double inertia = ranges.effort / ranges.acceleration;
+  fill(layout.f_group, travels ? -kInfinity : floor, kInfinity, ranges.effort);
+  fill(layout.g_group, floor, kInfinity, ranges.effort);
+  fill(layout.h_group, -3.0, 3.0, 1.0);
+  fill(layout.inertia_group, -inertia, inertia, 0.1 * inertia);
+  fill(layout.delay_group, -delay, delay, delay);
+  fill(layout.offset_group, -ranges.effort, ranges.effort, 0.1 * ranges.effort);
+  fill(layout.zero_group, -kInfinity, kInfinity, ranges.motion);
+  fill(layout.initial_group, -kInfinity, kInfinity, ranges.motion);
+  return result;
+}
+
+Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, FreeTerms free) {
+  const Ranges ranges = ranges_of(records, free.zeros);
+  std::optional<LinearStart> best;
+  double criterion = kInfinity;
+  for (const auto& knots : kVelocityKnots) {
+    TorsionLayout layout = layout_for(records, ranges, knots, free);
+    auto fit = linear_fit(layout, records);
+    if (!fit) return tl::unexpected(fit.error());
+    if (!best || fit->criterion < criterion) {
+      criterion = fit->criterion;
+      best = LinearStart{std::move(layout), std::move(fit->p)};
+    }
+  }
+  return std::move(*best);
+}
+
+LinearStart with_terms(const LinearStart& start, FreeTerms free) {
+  const auto& old = start.layout;
+  const LawSpec f = old.f(start.p);
+  const LawSpec g = old.g_inverse(start.p);
+  TorsionLayout layout(f, old.f_group.count, g, old.g_group.count, old.h(start.p).scale,
+                       kModulationTerms, old.records(), free);
+  auto p = layout.carry_over(old, start.p);
+  return {std::move(layout), std::move(p)};
+}
+
+}  // namespace flexspline::estimators

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "torsion/layout.hpp"
+#include "torsion/prepared_record.hpp"
+
+namespace flexspline::estimators {
+
+/// Bounds and typical sizes of all parameters of a layout, starting from p.
+std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
+                                                 const std::vector<PreparedRecord>& records,
+                                                 std::span<const double> p);
+
+/// Laws for these records: f monotone on both sides (or free where the motion travels), g^-1
+/// monotone, with the knots of the candidate that the Bayesian criterion prefers; and where the
+/// linear least squares of eq. (4) with h = 1 puts them.
+struct LinearStart {
+  TorsionLayout layout;
+  std::vector<double> p;
+};
+Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, FreeTerms free);
+
+/// A layout with the same laws and other free terms, and its parameters.
+LinearStart with_terms(const LinearStart& start, FreeTerms free);
+
+/// Degree of ln h.
+inline constexpr std::size_t kModulationTerms = 4;
+
+}  // namespace flexspline::estimators
