@@ -1,0 +1,109 @@
+#include "flexspline/reports/artefacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "checksum.hpp"
+#include "flexspline/core/write_file.hpp"
+#include "json_fields.hpp"
+#include "parse_artefacts.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::vector<fs::path> json_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// An artefact with the schema it should have, parsed; or a line in `unreadable`.
+template <class Parse>
+auto read_one(const fs::path& path, std::string_view schema, Parse parse,
+              std::vector<std::string>& unreadable)
+    -> std::optional<decltype(parse(std::declval<const json&>()))> {
+  const auto refuse = [&](const std::string& reason) {
+    const fs::path shown = path.parent_path().filename() / path.filename();
+    unreadable.push_back(shown.generic_string() + ": " + reason);
+    return std::nullopt;
+  };
+  const auto text = read_file(path);
+  if (!text) return refuse(text.error().problem);
+  try {
+    const json artefact = json::parse(*text);
+    const std::string found = text_in(artefact, "schema");
+    if (found != schema) {
+      return refuse("schema is \"" + found + "\", not \"" + std::string(schema) + "\"");
+    }
+    if (!checksum_holds(*text)) return refuse("its checksum does not hold");
+    return parse(artefact);
+  } catch (const json::exception& error) {
+    return refuse(error.what());
+  }
+}
+
+void keep_first_of_each_id(std::vector<Input>& inputs) {
+  std::vector<Input> kept;
+  for (Input& input : inputs) {
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const Input& other) { return other.id == input.id; });
+    if (!known) kept.push_back(std::move(input));
+  }
+  inputs = std::move(kept);
+}
+
+}  // namespace
+
+double CaseRecording::error_percent() const {
+  return std::isfinite(rmse_true_percent) ? rmse_true_percent : rmse_percent;
+}
+
+const Band* Case::band(const std::string& function) const {
+  const auto found = std::find_if(bands.begin(), bands.end(),
+                                  [&](const Band& band) { return band.function == function; });
+  return found == bands.end() ? nullptr : &*found;
+}
+
+const CaseRecording* Case::recording(const std::string& id) const {
+  const auto found = std::find_if(recordings.begin(), recordings.end(),
+                                  [&](const CaseRecording& item) { return item.id == id; });
+  return found == recordings.end() ? nullptr : &*found;
+}
+
+Result<Artefacts> read_artefacts(const fs::path& folder) {
+  Artefacts artefacts;
+  auto& unreadable = artefacts.unreadable;
+  for (const fs::path& path : json_files(folder / "inputs")) {
+    auto input = read_one(path, "flexspline-input/1", parse_input, unreadable);
+    if (input) artefacts.inputs.push_back(std::move(*input));
+  }
+  keep_first_of_each_id(artefacts.inputs);
+  for (const fs::path& path : json_files(folder / "cases")) {
+    auto read = read_one(path, "flexspline-case/1", parse_case, unreadable);
+    if (read) artefacts.cases.push_back(std::move(*read));
+  }
+  if (const fs::path path = folder / "paper.json"; fs::exists(path)) {
+    artefacts.paper = read_one(path, "flexspline-paper/1", parse_paper, unreadable);
+  }
+  if (auto lock = read_file(folder / "study.lock.toml")) artefacts.lock = std::move(*lock);
+  const bool nothing = artefacts.inputs.empty() && artefacts.cases.empty() && !artefacts.paper &&
+                       unreadable.empty() && artefacts.lock.empty();
+  if (nothing) {
+    return failure(ErrorCode::input_missing,
+                   folder.string() + " holds no artefact to draw a report from",
+                   "give the folder that run, fit or compare wrote");
+  }
+  return artefacts;
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,103 @@
+// Numbers over two category axes, coloured on one logarithmic scale.
+
+import type { Cell, Figure, Panel } from "./document";
+import { escapeHtml, shown } from "./numbers";
+import { heatColours, inkOn, theme } from "./theme";
+
+type Option = Record<string, any>;
+
+const kNotes: Record<string, string> = { trained: " T", outside: " *" };
+
+function shareOf(value: number, scale: [number, number]): number {
+  const [low, high] = scale.map(Math.log10);
+  return Math.min(1, Math.max(0, (Math.log10(value) - low) / (high - low)));
+}
+
+function cellText(value: number | null): string {
+  if (value === null) return "–";
+  if (value >= 1000) return value.toExponential(0).replace("e+", "e");
+  return shown(value, value >= 1 ? 2 : 2);
+}
+
+function cellOption(cell: Cell, scale: [number, number]): Option {
+  const [column, row, value, note] = cell;
+  const share = value === null ? 0 : shareOf(Math.max(value, 1e-12), scale);
+  return {
+    value: [column, row, share, value],
+    label: { color: value === null ? theme().text : inkOn(share), formatter: cellText(value) + (kNotes[note] ?? "") },
+    itemStyle: value === null ? { color: "transparent" } : undefined,
+    note,
+  };
+}
+
+function tooltipText(panel: Panel, item: any): string {
+  const [column, row, , value] = item.value;
+  const said = { trained: "trained on this recording", outside: "outside its domain of validity" }[item.data.note as string];
+  const place = `${panel.y.label}: ${panel.y.categories?.[row]}, ${panel.x.label}: ${panel.x.categories?.[column]}`;
+  return `${escapeHtml(place)}<br><b>${shown(value, 3)} %</b> of peak${said ? `<br>${said}` : ""}`;
+}
+
+function axisOption(label: string, categories: string[] | undefined, gap: number): Option {
+  const colours = theme();
+  return {
+    type: "category",
+    data: categories ?? [],
+    name: label,
+    nameLocation: "middle",
+    nameGap: gap,
+    nameTextStyle: { color: colours.text },
+    axisLine: { show: false },
+    axisTick: { show: false },
+    splitLine: { show: false },
+    axisLabel: { color: colours.text, fontSize: 11, interval: 0, width: 110, overflow: "truncate" },
+  };
+}
+
+export function heatmapOption(panel: Panel, figure: Figure): Option {
+  const colours = theme();
+  const scale = figure.scale ?? [0.1, 100];
+  return {
+    animation: false,
+    textStyle: { color: colours.text, fontFamily: "inherit" },
+    grid: { left: 8, right: 8, top: 8, bottom: 8, outerBoundsMode: "same", outerBounds: { left: 4, right: 4, top: 4, bottom: 4 } },
+    tooltip: {
+      confine: true,
+      backgroundColor: colours.surface,
+      borderColor: colours.grid,
+      textStyle: { color: colours.text, fontSize: 12 },
+      formatter: (item: any) => tooltipText(panel, item),
+    },
+    visualMap: { show: false, min: 0, max: 1, dimension: 2, inRange: { color: heatColours } },
+    xAxis: axisOption(panel.x.label, panel.x.categories, 26),
+    yAxis: axisOption(panel.y.label, panel.y.categories, 40),
+    series: [
+      {
+        type: "heatmap",
+        name: panel.title,
+        data: (panel.cells ?? []).map((cell) => cellOption(cell, scale)),
+        label: { show: true, fontSize: 11 },
+        itemStyle: { borderColor: colours.surface, borderWidth: 2 },
+        emphasis: { itemStyle: { borderColor: colours.text } },
+      },
+    ],
+  };
+}
+
+/** The scale as a strip with its decades. */
+export function scaleStrip(scale: [number, number]): HTMLElement {
+  const strip = document.createElement("div");
+  strip.className = "scale";
+  const [low, high] = scale.map(Math.log10);
+  const bar = document.createElement("div");
+  bar.className = "bar";
+  bar.style.background = `linear-gradient(to right, ${heatColours.join(",")})`;
+  const ticks = document.createElement("div");
+  ticks.className = "ticks";
+  for (let decade = Math.round(low); decade <= Math.round(high); decade++) {
+    const label = document.createElement("span");
+    label.textContent = `${Number((10 ** decade).toPrecision(1))} %`;
+    ticks.append(label);
+  }
+  strip.append(bar, ticks);
+  return strip;
+}

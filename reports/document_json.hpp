@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flexspline/reports/section.hpp"
+
+namespace flexspline::reports {
+
+/// A report before it is a page.
+struct Document {
+  std::string title;
+  std::vector<Section> sections;
+};
+
+/// The machine-readable twin, schema flexspline-report/1, with its checksum last.
+std::string report_json(const Document& document);
+
+/// The figures alone, by id, as the page carries them: no `<` that could end a script.
+std::string figures_json(const Document& document);
+
+}  // namespace flexspline::reports

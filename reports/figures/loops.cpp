@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+
+#include "figures/study_figures.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+constexpr std::size_t kNumbersInLoopPicker = 130'000;
+
+struct Range {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+Range range_of(const std::vector<double>& values) {
+  Range range{HUGE_VAL, -HUGE_VAL};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range.lower = std::min(range.lower, value);
+    range.upper = std::max(range.upper, value);
+  }
+  return range;
+}
+
+/// Keeps the measured loop in view where a simulated one leaves it by far.
+void keep_measured_in_view(Panel& panel, const std::string& unit) {
+  const Range measured = range_of(panel.series.front().y);
+  const double span = measured.upper - measured.lower;
+  if (!(span > 0.0)) return;
+  const Range shown{measured.lower - 0.6 * span, measured.upper + 0.6 * span};
+  double largest = 0.0;
+  for (const Series& series : panel.series) {
+    const Range all = range_of(series.y);
+    if (all.lower < shown.lower || all.upper > shown.upper) {
+      largest = std::max({largest, std::abs(all.lower), std::abs(all.upper)});
+    }
+  }
+  if (largest == 0.0) return;
+  panel.y.range = {rounded(shown.lower, 2), rounded(shown.upper, 2)};
+  panel.title += " (cut: a simulated loop reaches " + digits(largest, 2) + " " + unit + ")";
+}
+
+Panel loop_panel(const StudyView& view, const Input& input, const InputRecording& recording,
+                 std::size_t points) {
+  Panel panel;
+  panel.x.label = "motion / " + input.units.motion;
+  panel.y.label = "effort / " + input.units.effort;
+  Series measured{"measured", "line", {"measured", 0}, recording.motion, recording.effort, {}, {}};
+  std::vector<Series> simulated;
+  for (const EstimatorView& estimator : view.estimators()) {
+    const Case* item = view.find(input, estimator);
+    const CaseRecording* fit = item != nullptr ? item->recording(recording.id) : nullptr;
+    if (fit == nullptr || fit->simulated.empty()) continue;
+    if (simulated.empty()) {
+      panel.title = place_of(input, *fit);
+      measured.x = fit->motion;
+      measured.y = fit->measured;
+    }
+    simulated.push_back(
+        {estimator.id, "line", role_of(estimator), fit->motion, fit->simulated, {}, {}});
+  }
+  panel.series.push_back(std::move(measured));
+  for (Series& series : simulated) panel.series.push_back(std::move(series));
+  for (Series& series : panel.series) {
+    series.x = thinned(series.x, points);
+    series.y = thinned(series.y, points);
+  }
+  keep_measured_in_view(panel, input.units.effort);
+  return panel;
+}
+
+std::vector<std::string> choice_of(const StudyView& view, const Input& input,
+                                   const InputRecording& recording) {
+  if (!view.on_grid()) return {input.title, recording.id};
+  return {input.title, digits(recording.amplitude, 4) + " " + input.units.motion,
+          digits(recording.frequency_hz, 4) + " Hz"};
+}
+
+bool before(const InputRecording& a, const InputRecording& b) {
+  if (a.amplitude != b.amplitude) return a.amplitude < b.amplitude;
+  return a.frequency_hz < b.frequency_hz;
+}
+
+}  // namespace
+
+Role role_of(const EstimatorView& estimator) { return {"estimator", estimator.rank}; }
+
+Figure own_loop_figure(const StudyView& view) {
+  Figure figure;
+  figure.id = "own-loop";
+  figure.title = "The loop that every estimator was given";
+  figure.caption =
+      "Look for daylight between the lines: on this loop there is hardly any, whichever physics the "
+      "input hides. That is why a training loop proves nothing.";
+  figure.alt = "Hysteresis loop, effort over motion: measured, and simulated by every estimator.";
+  figure.pickers = {"input"};
+  for (const Input& input : view.artefacts().inputs) {
+    const std::string id = view.operating_point(input).recording;
+    for (const InputRecording& recording : input.recordings) {
+      if (recording.id != id || recording.motion.empty()) continue;
+      figure.frames.push_back({{input.title}, {loop_panel(view, input, recording, 400)}});
+    }
+  }
+  return figure;
+}
+
+Figure loops_figure(const StudyView& view) {
+  Figure figure;
+  figure.id = "loops";
+  figure.title = "Loop by loop: measured against each estimator";
+  figure.caption =
+      "Step away from the training loop, in amplitude or in frequency, and watch which line stays on "
+      "the measured one. Drag or pinch to zoom; a click in the legend hides a line.";
+  figure.alt = "Hysteresis loops at every amplitude and frequency: measured and simulated.";
+  figure.pickers = view.on_grid() ? std::vector<std::string>{"input", "amplitude", "frequency"}
+                                  : std::vector<std::string>{"input", "recording"};
+  std::size_t loops = 1;
+  for (const Input& input : view.artefacts().inputs) loops += input.recordings.size();
+  const std::size_t numbers = kNumbersInLoopPicker / (loops * (view.estimators().size() + 2));
+  const std::size_t points = std::clamp<std::size_t>(numbers, 60, 400);
+  for (const Input& input : view.artefacts().inputs) {
+    std::vector<InputRecording> sorted = input.recordings;
+    if (view.on_grid()) std::stable_sort(sorted.begin(), sorted.end(), before);
+    for (const InputRecording& recording : sorted) {
+      if (recording.motion.empty()) continue;
+      figure.frames.push_back(
+          {choice_of(view, input, recording), {loop_panel(view, input, recording, points)}});
+    }
+  }
+  return figure;
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "figures/study_figures.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+constexpr double kAmplitudeDeg = 0.2;    ///< 10 deg at the motor, ratio 50
+constexpr double kFrequencyHz = 0.005;
+
+/// Coefficients c1, c2, ... of an odd polynomial out of Table I.
+std::vector<double> coefficients(const Paper& paper, char letter) {
+  std::vector<double> found;
+  for (int i = 1; i <= 5; ++i) {
+    const std::string name = letter + std::to_string(i);
+    const auto row = std::find_if(paper.table_1.begin(), paper.table_1.end(),
+                                  [&](const TableOneRow& item) { return item.name == name; });
+    if (row == paper.table_1.end() || !std::isfinite(row->published)) return {};
+    found.push_back(row->published);
+  }
+  return found;
+}
+
+double odd_polynomial(const std::vector<double>& c, double x) {
+  double value = 0.0;
+  for (std::size_t i = c.size(); i-- > 0;) value = value * x * x + c[i];
+  return value * x;
+}
+
+Panel beyond_panel(const std::vector<double>& c, double range, const std::string& title,
+                   const std::string& x_label, const std::string& y_label) {
+  Panel panel;
+  panel.title = title;
+  panel.x.label = x_label;
+  panel.y.label = y_label;
+  Series inside{"on the fitted loop", "line", {"published", 0}, {}, {}, {}, {}};
+  Series beyond{"beyond it", "line", {"estimator", 0}, {}, {}, {}, {}};
+  double peak = 0.0;
+  for (int i = 0; i <= 200; ++i) {
+    const double x = 1.5 * range * i / 200.0;
+    const double y = odd_polynomial(c, x);
+    Series& part = x <= range * (1.0 + 1e-9) ? inside : beyond;
+    if (&part == &inside) peak = std::max(peak, std::abs(y));
+    if (&part == &beyond && beyond.x.empty()) {
+      beyond.x.push_back(inside.x.back());
+      beyond.y.push_back(inside.y.back());
+    }
+    part.x.push_back(x);
+    part.y.push_back(y);
+  }
+  panel.series = {std::move(inside), std::move(beyond)};
+  panel.marks = {{rounded(range, 4), "end of the fitted loop"}};
+  panel.y.range = {rounded(-3.0 * peak, 2), rounded(2.0 * peak, 2)};
+  return panel;
+}
+
+}  // namespace
+
+Figure table_one_figure(const Paper& paper) {
+  Figure figure;
+  const auto a = coefficients(paper, 'a');
+  const auto b = coefficients(paper, 'b');
+  if (a.empty() || b.empty()) return figure;
+  figure.id = "table-one-beyond";
+  figure.title = "Table I's functions to 1.5 times the range they were fitted on";
+  figure.caption =
+      "Both turn round soon after the fitted loop ends and then change sign: from there the model "
+      "makes energy. Strict monotonicity, on which existence and uniqueness rest, holds on the "
+      "training loop only.";
+  figure.alt = "Table I's f and g⁻¹ rise to the end of the fitted range, then fall below zero.";
+  const double rate = 2.0 * std::numbers::pi * kFrequencyHz * kAmplitudeDeg;
+  figure.frames.push_back(
+      {{},
+       {beyond_panel(a, kAmplitudeDeg, "f", "motion / deg", "f / Nm"),
+        beyond_panel(b, rate, "g⁻¹", "rate of motion / (deg/s)", "g⁻¹ / Nm")}});
+  return figure;
+}
+
+Figure paper_figure(const PaperFigure& from) {
+  Figure figure;
+  figure.id = slug(from.id);
+  figure.title = from.title;
+  figure.caption = from.says;
+  figure.alt = from.title + ": " + from.y_label + " over " + from.x_label + ".";
+  Panel panel;
+  panel.x.label = from.x_label;
+  panel.y.label = from.y_label;
+  int rank = 0;
+  for (const PaperSeries& series : from.series) {
+    panel.series.push_back({series.name, series.points ? "points" : "line", {"plain", rank++},
+                            thinned(series.x, 400), thinned(series.y, 400), {}, {}});
+  }
+  figure.frames.push_back({{}, {std::move(panel)}});
+  return figure;
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flexspline::reports {
+
+/// Words, or a number; NaN is a number that does not exist and is shown as a dash.
+using Cell = std::variant<std::string, double>;
+
+struct Column {
+  std::string name;
+  std::string unit;  ///< empty: none
+  int digits = 3;    ///< significant digits shown to a person; files keep all of them
+};
+
+/// A table, from which the page, CSV, Markdown and LaTeX are all written.
+struct Table {
+  std::string id;  ///< also the name of its files: lower-case letters, digits, hyphens
+  std::string caption;
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;
+};
+
+/// RFC 4180; names with their units in the first line; numbers in full.
+std::string csv_of(const Table& table);
+/// GitHub's Markdown, with a row of units.
+std::string markdown_of(const Table& table);
+/// A booktabs table environment.
+std::string latex_of(const Table& table);
+
+/// A cell as a person sees it.
+std::string shown(const Cell& cell, const Column& column);
+
+}  // namespace flexspline::reports

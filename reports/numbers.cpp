@@ -1,0 +1,64 @@
+#include "numbers.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace flexspline::reports {
+
+double rounded(double value, int count) {
+  if (!std::isfinite(value)) return value;
+  return std::strtod(fmt::format("{:.{}e}", value, count - 1).c_str(), nullptr);
+}
+
+std::vector<double> rounded(std::vector<double> values, int count) {
+  for (double& value : values) value = rounded(value, count);
+  return values;
+}
+
+std::string digits(double value, int count) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0.0) return "0";
+  const double size = std::abs(rounded(value, count));
+  if (size < 1e-3 || size >= 1e6) return fmt::format("{:.{}e}", value, count - 1);
+  const int magnitude = static_cast<int>(std::floor(std::log10(size)));
+  return fmt::format("{:.{}f}", rounded(value, std::max(count, magnitude + 1)),
+                     std::max(0, count - 1 - magnitude));
+}
+
+std::vector<double> thinned(const std::vector<double>& values, std::size_t most) {
+  if (values.size() <= most || most < 2) return values;
+  const std::size_t step = (values.size() + most - 2) / (most - 1);
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < values.size(); i += step) kept.push_back(values[i]);
+  if ((values.size() - 1) % step != 0) kept.push_back(values.back());
+  return kept;
+}
+
+double median(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string slug(const std::string& name) {
+  std::string slug;
+  for (const unsigned char letter : name) {
+    const bool plain = std::isalnum(letter) != 0 && letter < 128;
+    if (plain) {
+      slug += static_cast<char>(std::tolower(letter));
+    } else if (!slug.empty() && slug.back() != '-') {
+      slug += '-';
+    }
+  }
+  while (!slug.empty() && slug.back() == '-') slug.pop_back();
+  return slug.empty() ? "unnamed" : slug.substr(0, 60);
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flexspline::reports {
+
+/// A number to `count` significant digits, for a person: no exponent between 1e-3 and 1e6; a dash
+/// where there is no number.
+std::string digits(double value, int count);
+
+/// The double nearest to the value written with `count` significant digits: short in JSON.
+double rounded(double value, int count);
+std::vector<double> rounded(std::vector<double> values, int count);
+
+/// Every n-th sample such that at most `most` are left, always with the last one.
+std::vector<double> thinned(const std::vector<double>& values, std::size_t most);
+
+/// Middle of the finite values; NaN where there are none.
+double median(std::vector<double> values);
+
+/// Lower-case letters, digits and hyphens, for ids and file names.
+std::string slug(const std::string& name);
+
+}  // namespace flexspline::reports

@@ -1,0 +1,148 @@
+#include "page.hpp"
+
+#include <algorithm>
+
+namespace flexspline::reports {
+namespace {
+
+bool is_numeric(const Table& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return column < row.size() && std::holds_alternative<double>(row[column]);
+  });
+}
+
+std::string cell_html(const char* tag, bool numeric, const std::string& text) {
+  const std::string open = numeric ? std::string("<") + tag + " class=\"n\">" : std::string("<") + tag + ">";
+  return open + escaped(text) + "</" + tag + ">";
+}
+
+std::string head_html(const Table& table) {
+  std::string names = "<tr>", units = "<tr class=\"units\">";
+  bool has_units = false;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    names += cell_html("th", is_numeric(table, i), table.columns[i].name);
+    units += cell_html("td", is_numeric(table, i), table.columns[i].unit);
+    has_units = has_units || !table.columns[i].unit.empty();
+  }
+  return "<thead>" + names + "</tr>" + (has_units ? units + "</tr>" : "") + "</thead>";
+}
+
+/// The first cell of a row that repeats the one above is left blank, so that groups are seen.
+std::string rows_html(const Table& table) {
+  std::string html = "<tbody>";
+  std::string above;
+  for (const auto& row : table.rows) {
+    const std::string first = shown(row.front(), table.columns.front());
+    const bool repeats = first == above;
+    html += repeats ? "<tr>" : "<tr class=\"first\">";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const bool numeric = std::holds_alternative<double>(row[i]);
+      if (i == 0 && repeats) {
+        html += "<th scope=\"row\"><span class=\"again\">" + escaped(first) + "</span></th>";
+      } else if (i == 0) {
+        html += "<th scope=\"row\">" + escaped(first) + "</th>";
+      } else {
+        html += cell_html("td", numeric, shown(row[i], table.columns[i]));
+      }
+    }
+    html += "</tr>";
+    above = first;
+  }
+  return html + "</tbody>";
+}
+
+struct ContentHtml {
+  std::string operator()(const Verdict& verdict) const {
+    return "<p class=\"verdict\">" + escaped(verdict.text) + "</p>\n";
+  }
+  std::string operator()(const Paragraph& paragraph) const {
+    return "<p>" + escaped(paragraph.text) + "</p>\n";
+  }
+  std::string operator()(const Listing& listing) const {
+    return "<pre tabindex=\"0\"><code>" + escaped(listing.text) + "</code></pre>\n";
+  }
+  std::string operator()(const Table& table) const {
+    return "<div class=\"table\" tabindex=\"0\" role=\"region\" aria-label=\"" +
+           escaped(table.caption) + "\"><table id=\"table-" + table.id + "\"><caption>" +
+           escaped(table.caption) + " <span class=\"files\">tables/" + table.id +
+           ".csv, .md, .tex</span></caption>" + head_html(table) + rows_html(table) +
+           "</table></div>\n";
+  }
+  std::string operator()(const Figure& figure) const {
+    return "<figure id=\"figure-" + escaped(figure.id) + "\" data-figure=\"" + escaped(figure.id) +
+           "\"><h3>" + escaped(figure.title) + "</h3><div class=\"controls\"></div>" +
+           "<div class=\"panels\" role=\"group\" aria-label=\"" + escaped(figure.alt) +
+           "\"></div><figcaption>" + escaped(figure.caption) + "</figcaption></figure>\n";
+  }
+};
+
+/// A figure that is one small picture may stand beside its neighbour.
+bool is_small(const Block& block) {
+  const auto* figure = std::get_if<Figure>(&block.content);
+  return figure != nullptr && block.folded_under.empty() && figure->frames.size() == 1 &&
+         figure->frames.front().panels.size() == 1;
+}
+
+std::string blocks_html(const std::vector<Block>& blocks) {
+  std::string html;
+  bool in_row = false;
+  for (const Block& block : blocks) {
+    if (is_small(block) != in_row) html += in_row ? "</div>\n" : "<div class=\"row\">\n";
+    in_row = is_small(block);
+    const std::string content = std::visit(ContentHtml{}, block.content);
+    html += block.folded_under.empty()
+                ? content
+                : "<details><summary>" + escaped(block.folded_under) + "</summary>\n" + content +
+                      "</details>\n";
+  }
+  return in_row ? html + "</div>\n" : html;
+}
+
+std::string links_html(const std::vector<Section>& sections) {
+  std::string html = "<nav aria-label=\"Sections\"><ol>";
+  for (const Section& section : sections) {
+    if (&section == &sections.front()) continue;
+    html += "<li><a href=\"#" + section.id + "\">" + escaped(section.title) + "</a></li>";
+  }
+  return html + "</ol></nav>\n";
+}
+
+constexpr std::string_view kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&': html += "&amp;"; break;
+      case '<': html += "&lt;"; break;
+      case '>': html += "&gt;"; break;
+      case '"': html += "&quot;"; break;
+      case '\'': html += "&#39;"; break;
+      default: html += letter;
+    }
+  }
+  return html;
+}
+
+std::string page_of(const Document& document) {
+  std::string html = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  html += "<meta name=\"color-scheme\" content=\"light dark\">\n";
+  html += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string(kPolicy) + "\">\n";
+  html += "<title>" + escaped(document.title) + "</title>\n<style>" + page_style() + "</style>\n";
+  html += "</head>\n<body>\n<main>\n<h1>" + escaped(document.title) + "</h1>\n";
+  html += "<noscript><p>The figures need JavaScript; text and tables do not.</p></noscript>\n";
+  for (const Section& section : document.sections) {
+    html += "<section id=\"" + section.id + "\">\n<h2>" + escaped(section.title) + "</h2>\n" +
+            blocks_html(section.blocks) + "</section>\n";
+    if (&section == &document.sections.front()) html += links_html(document.sections);
+  }
+  html += "</main>\n<script type=\"application/json\" id=\"figures\">" + figures_json(document) +
+          "</script>\n<script>" + page_script() + "</script>\n</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <cmath>
+
+#include "figures/study_figures.hpp"
+#include "flexspline/reports/section.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+double function_error(const StudyView& view, const Input& input, const EstimatorView& estimator,
+                      const std::string& function) {
+  const Case* item = view.find(input, estimator);
+  if (item == nullptr) return kAbsent;
+  const auto found = item->function_errors_percent.find(function);
+  return found == item->function_errors_percent.end() ? kAbsent : found->second;
+}
+
+struct TorqueColumn {
+  const char* name;
+  Elsewhere elsewhere;
+};
+
+constexpr TorqueColumn kTorqueColumns[] = {{"other amplitude", Elsewhere::other_amplitude},
+                                           {"other frequency", Elsewhere::other_frequency},
+                                           {"beyond the domain", Elsewhere::beyond_domain}};
+
+/// An input a row, the principal estimators side by side.
+Table side_by_side(const StudyView& view, const std::vector<const EstimatorView*>& principal) {
+  Table table{"paper-against-full",
+              "Errors in percent: of f and g⁻¹ over the training range, of their edge values; of the "
+              "effort, the worst recording that nobody was trained on, of its peak, at the "
+              "operating point's frequency and another amplitude, or the reverse, within every "
+              "estimator's domain; and beyond a domain.",
+              {{"input", "", 3}}, {}};
+  const auto each = [&](const std::string& quantity) {
+    for (const EstimatorView* estimator : principal) {
+      table.columns.push_back({quantity + ", " + estimator->id, "%", 2});
+    }
+  };
+  for (const char* function : {"f", "g_inverse"}) each(function_label(function));
+  for (const TorqueColumn& column : kTorqueColumns) each(column.name);
+  for (const Input& input : view.artefacts().inputs) {
+    std::vector<Cell> row{input.title};
+    for (const char* function : {"f", "g_inverse"}) {
+      for (const EstimatorView* estimator : principal) {
+        row.emplace_back(function_error(view, input, *estimator, function));
+      }
+    }
+    for (const TorqueColumn& column : kTorqueColumns) {
+      for (const EstimatorView* estimator : principal) {
+        row.emplace_back(view.worst(input, *estimator, column.elsewhere).percent);
+      }
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// Every estimator, with the recording on which it is worst.
+Table in_full(const StudyView& view) {
+  Table table{"function-and-effort-errors",
+              "The same for every estimator, with the recording on which it is worst.",
+              {{"input", "", 3}, {"estimator", "", 3}, {"f", "%", 2}, {"g⁻¹", "%", 2},
+               {"h", "%", 2}},
+              {}};
+  for (const TorqueColumn& column : kTorqueColumns) {
+    table.columns.push_back({std::string("effort, ") + column.name, "%", 2});
+    table.columns.push_back({"worst at", "", 3});
+  }
+  for (const Input& input : view.artefacts().inputs) {
+    for (const EstimatorView& estimator : view.estimators()) {
+      std::vector<Cell> row{input.title, estimator.id};
+      for (const char* function : {"f", "g_inverse", "h"}) {
+        row.emplace_back(function_error(view, input, estimator, function));
+      }
+      for (const TorqueColumn& column : kTorqueColumns) {
+        const Worst worst = view.worst(input, estimator, column.elsewhere);
+        row.emplace_back(worst.percent);
+        row.emplace_back(worst.where);
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+Worst worst_inside(const StudyView& view, const EstimatorView& estimator) {
+  Worst all;
+  for (const Input& input : view.artefacts().inputs) {
+    for (const Elsewhere elsewhere : {Elsewhere::other_amplitude, Elsewhere::other_frequency}) {
+      const Worst one = view.worst(input, estimator, elsewhere);
+      if (std::isfinite(one.percent) && !(all.percent >= one.percent)) {
+        all = {one.percent, input.title + " at " + one.where};
+      }
+    }
+  }
+  return all;
+}
+
+std::string verdict_of(const StudyView& view) {
+  const EstimatorView* full = view.full_trajectory();
+  if (full == nullptr) return "No full-trajectory estimator is part of this folder.";
+  const Worst mine = worst_inside(view, *full);
+  if (!std::isfinite(mine.percent)) {
+    return full->id + " has no held-out loop at another amplitude or frequency to be judged on.";
+  }
+  std::string text = mine.percent < 2.0 ? "Yes: " : "Not for every input: ";
+  text += "within the domain its recordings support, " + full->id + " is off by at most " +
+          digits(mine.percent, 2) + " % of peak (" + mine.where + ")";
+  if (const EstimatorView* paper = view.paper_fit(); paper != nullptr) {
+    const Worst theirs = worst_inside(view, *paper);
+    if (std::isfinite(theirs.percent)) {
+      text += "; " + paper->id + " by up to " + digits(theirs.percent, 2) + " % (" + theirs.where +
+              ")";
+    }
+  }
+  return text + ".";
+}
+
+std::optional<Section> draw(const StudyView& view) {
+  if (view.artefacts().cases.empty() || view.artefacts().inputs.empty()) return std::nullopt;
+  Section section{"full-trajectory-section", "Does the full trajectory?", {}};
+  section.add(Verdict{verdict_of(view)});
+  Figure figure = error_overview_figure(view);
+  if (!figure.frames.empty()) section.add(std::move(figure));
+  std::vector<const EstimatorView*> principal;
+  if (view.paper_fit() != nullptr) principal.push_back(view.paper_fit());
+  if (view.full_trajectory() != nullptr) principal.push_back(view.full_trajectory());
+  if (!principal.empty()) section.add(side_by_side(view, principal));
+  section.fold("Every estimator, and where it is worst", in_full(view));
+  return section;
+}
+
+}  // namespace
+
+SectionRow describe_full_trajectory() { return {30, draw}; }
+
+}  // namespace flexspline::reports

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "flexspline/core/write_file.hpp"
+
+namespace flexspline::reports {
+
+/// A copy of the fixture that a test may spoil, gone when the test is.
+class StudyFolder {
+ public:
+  StudyFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test->test_suite_name()) + "-" + test->name();
+    std::replace(name.begin(), name.end(), '/', '-');
+    path_ = std::filesystem::path(testing::TempDir()) / ("flexspline-report-" + name);
+    std::filesystem::remove_all(path_);
+    std::filesystem::copy(std::filesystem::path(FLEXSPLINE_SOURCE_DIR) / "tests/reports/fixture",
+                          path_, std::filesystem::copy_options::recursive);
+  }
+  StudyFolder(const StudyFolder&) = delete;
+  StudyFolder& operator=(const StudyFolder&) = delete;
+  ~StudyFolder() { std::filesystem::remove_all(path_); }
+
+  const std::filesystem::path& path() const { return path_; }
+
+  std::string text(const std::string& file) const {
+    const auto text = read_file(path_ / file);
+    EXPECT_TRUE(text.has_value()) << file;
+    return text.value_or("");
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace flexspline::reports

@@ -1,0 +1,63 @@
+#include "flexspline/reports/table.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+Table example() {
+  return {"example",
+          "Errors of g⁻¹, 100 % & more",
+          {{"input", "", 3}, {"error", "%", 2}},
+          {{"a \"quoted\", name", 0.123456}, {"b|c_d", std::numeric_limits<double>::quiet_NaN()}}};
+}
+
+TEST(Table, CsvKeepsEveryDigitAndQuotesNames) {
+  EXPECT_EQ(csv_of(example()),
+            "input,error / %\n\"a \"\"quoted\"\", name\",0.123456\nb|c_d,\n");
+}
+
+TEST(Table, MarkdownHasARowOfUnitsAndEscapesBars) {
+  EXPECT_EQ(markdown_of(example()),
+            "| input | error |\n| --- | ---: |\n|  | % |\n| a \"quoted\", name | 0.12 |\n"
+            "| b\\|c_d | – |\n\nErrors of g⁻¹, 100 % & more\n");
+}
+
+TEST(Table, LatexEscapesWhatItWouldTakeForCommands) {
+  const std::string latex = latex_of(example());
+  EXPECT_NE(latex.find("\\caption{Errors of g$^{-1}$, 100 \\% \\& more}"), std::string::npos);
+  EXPECT_NE(latex.find("b|c\\_d & -- \\\\"), std::string::npos);
+  EXPECT_NE(latex.find("\\begin{tabular}{lr}"), std::string::npos);
+}
+
+TEST(Numbers, AreShownWithTheDigitsAskedForAndNeverAsZeroWhenAbsent) {
+  EXPECT_EQ(digits(16.5412, 4), "16.54");
+  EXPECT_EQ(digits(9.996, 3), "10.0");
+  EXPECT_EQ(digits(-2970.4, 2), "-2970");
+  EXPECT_EQ(digits(0.00012, 2), "1.2e-04");
+  EXPECT_EQ(digits(0.0, 3), "0");
+  EXPECT_EQ(digits(std::numeric_limits<double>::quiet_NaN(), 3), "–");
+}
+
+TEST(Numbers, ThinningKeepsBothEnds) {
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i) values.push_back(i);
+  for (const std::size_t most : {2u, 7u, 60u, 99u}) {
+    const auto kept = thinned(values, most);
+    EXPECT_LE(kept.size(), most + 1);
+    EXPECT_EQ(kept.front(), 0.0);
+    EXPECT_EQ(kept.back(), 99.0);
+  }
+}
+
+TEST(Numbers, SlugsAreFileNames) {
+  EXPECT_EQ(slug("h even/../<b>"), "h-even-b");
+  EXPECT_EQ(slug("<>"), "unnamed");
+}
+
+}  // namespace
+}  // namespace flexspline::reports

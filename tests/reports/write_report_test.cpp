@@ -1,0 +1,155 @@
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "checksum.hpp"
+#include "flexspline/reports/report.hpp"
+#include "study_folder.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Unlike a matcher, this does not print a page of a megabyte when it fails.
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::set<std::string> section_ids(const StudyFolder& study) {
+  std::set<std::string> ids;
+  const auto report = nlohmann::json::parse(study.text("report/report.json"));
+  for (const auto& section : report.at("sections")) ids.insert(section.at("id"));
+  return ids;
+}
+
+const std::set<std::string> kAll = {"verdict",           "own-loop-section",
+                                    "hold-out-section",  "full-trajectory-section",
+                                    "functions-section", "left-over-section",
+                                    "paper-section",     "provenance-section"};
+
+TEST(WriteReport, GivesTheSameBytesWhereverTheSameArtefactsLie) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  const std::string page = study.text("report/index.html");
+  const std::string twin = study.text("report/report.json");
+  const fs::path elsewhere = study.path() / "moved";
+  for (const char* part : {"inputs", "cases", "paper.json", "study.lock.toml"}) {
+    fs::create_directories(elsewhere);
+    fs::copy(study.path() / part, elsewhere / part, fs::copy_options::recursive);
+  }
+  ASSERT_TRUE(write_report(elsewhere));
+  EXPECT_EQ(study.text("moved/report/index.html"), page);
+  EXPECT_EQ(study.text("moved/report/report.json"), twin);
+}
+
+TEST(WriteReport, HoldsEverySectionInOrderAndIsLight) {
+  const StudyFolder study;
+  const auto page = write_report(study.path());
+  ASSERT_TRUE(page) << page.error().message();
+  EXPECT_EQ(*page, study.path() / "report" / "index.html");
+  EXPECT_EQ(section_ids(study), kAll);
+  const std::string html = study.text("report/index.html");
+  std::size_t at = 0;
+  for (const char* id : {"verdict", "own-loop-section", "hold-out-section",
+                         "full-trajectory-section", "functions-section", "left-over-section",
+                         "paper-section", "provenance-section"}) {
+    const std::size_t found = html.find("<section id=\"" + std::string(id));
+    ASSERT_NE(found, std::string::npos) << id;
+    EXPECT_GT(found, at) << id;
+    at = found;
+  }
+  EXPECT_LE(html.size(), 3'000'000u);
+}
+
+TEST(WriteReport, SealsItsTwin) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  EXPECT_TRUE(checksum_holds(study.text("report/report.json")));
+}
+
+TEST(WriteReport, ShowsHostileNamesWithoutRunningThem) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  const std::string html = study.text("report/index.html");
+  const std::string markup = html.substr(0, html.find("<script type"));
+  EXPECT_FALSE(contains(markup, "<img"));
+  EXPECT_FALSE(contains(markup, "<b>"));
+  EXPECT_FALSE(contains(markup, "<script"));
+  EXPECT_TRUE(contains(html, "&lt;/script&gt;&lt;img src=x onerror=&quot;window.hacked=1&quot;"));
+  EXPECT_TRUE(contains(html, "\\u003c/script>\\u003cimg src=x"));
+}
+
+TEST(WriteReport, ShowsAFailedCaseWithItsReasonAndNoNumbers) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  EXPECT_TRUE(contains(study.text("tables/hold-out.csv"), "trajectory_one_loop,,,,failed: the "
+                                                           "simulation of a0.2000-f0.01000"));
+  EXPECT_TRUE(contains(study.text("report/index.html"), "1 of 16 cases failed"));
+}
+
+TEST(WriteReport, RefusesHWithTheEstimatorsReason) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  EXPECT_TRUE(contains(study.text("report/index.html"), "No h from trajectory_one_loop on h even: one loop cannot tell"));
+}
+
+struct Part {
+  const char* file;
+  std::vector<const char*> lost;  ///< sections that cannot be drawn without it
+};
+
+class MissingArtefact : public testing::TestWithParam<Part> {};
+
+TEST_P(MissingArtefact, LeavesOutItsSectionsAlone) {
+  const StudyFolder study;
+  fs::remove_all(study.path() / GetParam().file);
+  const auto page = write_report(study.path());
+  ASSERT_TRUE(page) << page.error().message();
+  std::set<std::string> expected = kAll;
+  for (const char* id : GetParam().lost) expected.erase(id);
+  EXPECT_EQ(section_ids(study), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Parts, MissingArtefact,
+    testing::Values(Part{"paper.json", {"paper-section"}}, Part{"study.lock.toml", {}},
+                    Part{"cases",
+                         {"verdict", "own-loop-section", "hold-out-section",
+                          "full-trajectory-section", "functions-section"}},
+                    Part{"inputs",
+                         {"own-loop-section", "hold-out-section", "full-trajectory-section",
+                          "functions-section", "left-over-section"}}));
+
+TEST(WriteReport, NamesArtefactsThatCannotBeRead) {
+  const StudyFolder study;
+  const fs::path spoilt = study.path() / "cases" / "h_one--paper--r0.json";
+  std::string text = study.text("cases/h_one--paper--r0.json");
+  text.replace(text.find("\"seed\":7"), 8, "\"seed\":8");
+  ASSERT_TRUE(write_file(spoilt, text));
+  ASSERT_TRUE(write_file(study.path() / "cases" / "cut.json", "{\"schema\": "));
+  ASSERT_TRUE(write_report(study.path()));
+  const std::string html = study.text("report/index.html");
+  EXPECT_TRUE(contains(html, "cases/h_one--paper--r0.json: its checksum does not hold"));
+  EXPECT_TRUE(contains(html, "cases/cut.json: "));
+}
+
+TEST(WriteReport, RefusesAFolderWithoutArtefacts) {
+  const StudyFolder study;
+  const auto page = write_report(study.path() / "nowhere");
+  ASSERT_FALSE(page);
+  EXPECT_EQ(page.error().code, ErrorCode::input_missing);
+}
+
+TEST(WriteReport, SaysWhenItCannotWrite) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_file(study.path() / "report", "a file where the folder should be"));
+  const auto page = write_report(study.path());
+  ASSERT_FALSE(page);
+  EXPECT_EQ(page.error().code, ErrorCode::cannot_write);
+}
+
+}  // namespace
+}  // namespace flexspline::reports
