@@ -1,0 +1,89 @@
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "dataset_study.hpp"
+#include "flexspline/data/artefact.hpp"
+#include "run_folder.hpp"
+
+namespace flexspline::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::vector<std::string> split_ids(const std::string& list) {
+  std::vector<std::string> ids;
+  std::istringstream stream(list);
+  for (std::string id; std::getline(stream, id, ',');) {
+    if (!id.empty()) ids.push_back(id);
+  }
+  return ids;
+}
+
+/// rmse in percent of peak by recording and estimator, as the cases say.
+ordered_json table_of(const studies::StudyConfig& study, const std::filesystem::path& folder) {
+  ordered_json rows = ordered_json::array();
+  for (const studies::EstimatorConfig& estimator : study.estimators) {
+    const std::string key = fmt::format("{}--{}--r0", study.inputs.front().id, estimator.id);
+    const auto artefact = data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+    if (!artefact) continue;
+    for (const ordered_json& recording : artefact->at("recordings")) {
+      rows.push_back({{"estimator", estimator.id},
+                      {"role", recording.at("role")},
+                      {"recording", recording.at("id")},
+                      {"rmse", recording.at("rmse")},
+                      {"rmse_percent_of_peak", recording.at("rmse_percent_of_peak")}});
+    }
+  }
+  return rows;
+}
+
+std::string as_text(const ordered_json& rows) {
+  const auto number = [](const ordered_json& value) {
+    return value.is_null() ? std::string("-") : fmt::format("{:.4g}", value.get<double>());
+  };
+  std::string text = fmt::format("{:<24} {:<8} {:<28} {:>12} {:>10}", "estimator", "role", "recording",
+                                 "rmse", "% of peak");
+  for (const ordered_json& row : rows) {
+    text += fmt::format("\n{:<24} {:<8} {:<28} {:>12} {:>10}", row.at("estimator").get<std::string>(),
+                        row.at("role").get<std::string>(), row.at("recording").get<std::string>(),
+                        number(row.at("rmse")), number(row.at("rmse_percent_of_peak")));
+  }
+  return text;
+}
+
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
+  const Result<long> jobs = jobs_of(arguments);
+  if (!jobs) return tl::unexpected(jobs.error());
+  const std::vector<std::string> ids = split_ids(arguments.text("estimators"));
+  if (ids.empty()) return failure(ErrorCode::usage, "--estimators names none", "give ID,ID,…");
+  const auto study =
+      dataset_study(arguments.text("dataset"), ids, arguments.text("train", "all"), {});
+  if (!study) return tl::unexpected(study.error());
+  const std::filesystem::path folder = arguments.text("out");
+  std::filesystem::path report;
+  const auto summary = run_in_folder(*study, folder, *jobs, console, report);
+  if (!summary) return tl::unexpected(summary.error());
+  const ordered_json rows = table_of(*study, folder);
+  console.result(console.json ? rows.dump(2) : as_text(rows) + "\n" + report.string());
+  return summary->failed.empty() ? kDone : kSomethingFailed;
+}
+
+}  // namespace
+
+CommandRow describe_compare() {
+  return {.id = "compare",
+          .summary = "Several estimators on one data set, train and hold-out, side by side",
+          .arguments = {{.name = "dataset", .meaning = "folder of a data set", .value = "DATASET", .required = true},
+                        {.name = "--estimators", .meaning = "methods, see flexspline list estimators", .value = "ID,ID,…", .required = true},
+                        {.name = "--train", .meaning = "all training recordings, or the one with the largest motion", .value = "all|one"},
+                        {.name = "--out", .meaning = "folder for artefacts and report", .value = "DIR", .required = true},
+                        {.name = "--jobs", .meaning = "workers", .value = "N"}},
+          .example = "flexspline compare recordings/band-damper --estimators trajectory_ceres,bouc_wen --out out/damper",
+          .run = run};
+}
+
+}  // namespace flexspline::app

@@ -1,0 +1,81 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "dataset_study.hpp"
+#include "flexspline/data/artefact.hpp"
+#include "run_folder.hpp"
+
+namespace flexspline::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The estimate of a case with the errors in effort of every recording, train and hold-out.
+ordered_json estimate_of(const ordered_json& artefact) {
+  ordered_json estimate = artefact.at("estimate");
+  ordered_json rmse = {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}};
+  for (const ordered_json& recording : artefact.at("recordings")) {
+    rmse[recording.at("role").get<std::string>()][recording.at("id").get<std::string>()] =
+        recording.at("rmse");
+  }
+  estimate["rmse"] = rmse;
+  return estimate;
+}
+
+std::string summary_of(const ordered_json& estimate) {
+  std::string text = fmt::format("{}: {}, {} parameters, {}", estimate.value("estimator", ""),
+                                 estimate.value("termination", ""), estimate.at("parameters").size(),
+                                 estimate.at("identifiability").value("says", ""));
+  for (const char* role : {"train", "holdout"}) {
+    for (const auto& [id, value] : estimate.at("rmse").at(role).items()) {
+      text += fmt::format("\n  {:<8} {:<28} rmse {}", role, id,
+                          value.is_null() ? "not computed" : fmt::format("{:.4g}", value.get<double>()));
+    }
+  }
+  return text;
+}
+
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
+  const Result<long> jobs = jobs_of(arguments);
+  if (!jobs) return tl::unexpected(jobs.error());
+  const auto options = parse_options(arguments.texts("option"));
+  if (!options) return tl::unexpected(options.error());
+  const auto study = dataset_study(arguments.text("dataset"), {arguments.text("estimator")},
+                                   arguments.text("train", "all"), *options);
+  if (!study) return tl::unexpected(study.error());
+  const std::filesystem::path folder = arguments.text("out");
+  std::filesystem::path report;
+  const auto summary = run_in_folder(*study, folder, *jobs, console, report);
+  if (!summary) return tl::unexpected(summary.error());
+  if (!summary->failed.empty()) return kSomethingFailed;
+  const std::string key =
+      fmt::format("{}--{}--r0", study->inputs.front().id, study->estimators.front().id);
+  const auto artefact = data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+  if (!artefact) return tl::unexpected(artefact.error());
+  const ordered_json estimate = estimate_of(*artefact);
+  const auto written = data::write_artefact(folder / "estimate.json", estimate);
+  if (!written) return tl::unexpected(written.error());
+  console.result(console.json ? estimate.dump(2)
+                              : summary_of(estimate) + "\n" + report.string());
+  return kDone;
+}
+
+}  // namespace
+
+CommandRow describe_fit() {
+  return {.id = "fit",
+          .summary = "One estimator on one data set: DIR/estimate.json and a report",
+          .arguments = {{.name = "dataset", .meaning = "folder of a data set", .value = "DATASET", .required = true},
+                        {.name = "--estimator", .meaning = "method, see flexspline list estimators", .value = "ID", .required = true},
+                        {.name = "--option", .meaning = "a setting of the method", .value = "NAME=VALUE", .repeats = true},
+                        {.name = "--train", .meaning = "all training recordings, or the one with the largest motion", .value = "all|one"},
+                        {.name = "--out", .meaning = "folder for estimate and report", .value = "DIR", .required = true},
+                        {.name = "--jobs", .meaning = "workers", .value = "N"}},
+          .example = "flexspline fit recordings/iiwa-j1 --estimator trajectory_ceres --out out/j1",
+          .run = run};
+}
+
+}  // namespace flexspline::app

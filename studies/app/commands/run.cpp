@@ -1,0 +1,45 @@
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "flexspline/studies/study_config.hpp"
+#include "run_folder.hpp"
+
+namespace flexspline::app {
+namespace {
+
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
+  const Result<long> jobs = jobs_of(arguments);
+  if (!jobs) return tl::unexpected(jobs.error());
+  const auto study = studies::load_study(arguments.text("study"), arguments.text("data-root"));
+  if (!study) return tl::unexpected(study.error());
+  std::filesystem::path report;
+  const auto summary = run_in_folder(*study, arguments.text("out"), *jobs, console, report);
+  if (!summary) return tl::unexpected(summary.error());
+  if (console.json) {
+    const nlohmann::ordered_json text = {{"report", report.string()},
+                                         {"cases", summary->cases},
+                                         {"computed", summary->computed},
+                                         {"reused", summary->reused},
+                                         {"failed", summary->failed},
+                                         {"seconds", summary->seconds}};
+    console.result(text.dump(2));
+  } else {
+    console.result(report.string());
+  }
+  return summary->failed.empty() ? kDone : kSomethingFailed;
+}
+
+}  // namespace
+
+CommandRow describe_run() {
+  return {.id = "run",
+          .summary = "Runs a study: plan, cases, comparison, report; goes on where it stopped",
+          .arguments = {{.name = "study", .meaning = "study file", .value = "STUDY.toml", .required = true},
+                        {.name = "--out", .meaning = "folder for artefacts and report", .value = "DIR", .required = true},
+                        {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
+                        {.name = "--data-root", .meaning = "where relative data-set paths start; default: the study file's folder", .value = "DIR"}},
+          .example = "flexspline run studies/paper.toml --out out/paper",
+          .run = run};
+}
+
+}  // namespace flexspline::app

@@ -1,0 +1,87 @@
+#include "simulated_set.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "flexspline/core/simulate.hpp"
+#include "flexspline/core/torsion_record.hpp"
+
+namespace flexspline::app {
+namespace {
+
+Result<Recording> simulate_one(const ModelSpec& model, const Excitation& excitation,
+                               Direction direction, bool linear) {
+  Recording recording;
+  recording.id = excitation.id;
+  recording.split = excitation.split;
+  recording.excitation = "simulated";
+  recording.amplitude = excitation.amplitude;
+  recording.frequency_hz = excitation.frequency_hz;
+  recording.time = excitation.motion.time;
+  Result<std::vector<double>> simulated =
+      direction == Direction::torque
+          ? simulate_torque(model, excitation.motion)
+          : simulate_torsion(model, excitation.motion.time, excitation.effort,
+                             excitation.motion.position.front());
+  if (!simulated) return tl::unexpected(in_context(simulated.error(), "recording " + excitation.id));
+  const bool forward = direction == Direction::torque;
+  recording.channels[linear ? Quantity::displacement : Quantity::torsion] =
+      forward ? excitation.motion.position : *simulated;
+  recording.channels[linear ? Quantity::force : Quantity::torque] =
+      forward ? *simulated : excitation.effort;
+  return recording;
+}
+
+}  // namespace
+
+Excitation sine_excitation(double amplitude, double frequency_hz, long cycles, long samples,
+                           Direction direction) {
+  Excitation excitation;
+  excitation.id = "sine";
+  excitation.frequency_hz = frequency_hz;
+  const double omega = 2.0 * std::numbers::pi * frequency_hz;
+  const bool moves = direction == Direction::torque;
+  if (moves) excitation.amplitude = amplitude;
+  for (long i = 0; i <= cycles * samples; ++i) {
+    const double t = static_cast<double>(i) / (frequency_hz * static_cast<double>(samples));
+    excitation.motion.time.push_back(t);
+    excitation.motion.position.push_back(moves ? amplitude * std::sin(omega * t) : 0.0);
+    excitation.motion.velocity.push_back(moves ? amplitude * omega * std::cos(omega * t) : 0.0);
+    excitation.motion.acceleration.push_back(-omega * omega * excitation.motion.position.back());
+    excitation.effort.push_back(amplitude * std::sin(omega * t));
+  }
+  return excitation;
+}
+
+Result<std::vector<Excitation>> excitations_like(const RecordingSet& set) {
+  const auto records = torsion_records(set);
+  if (!records) return tl::unexpected(records.error());
+  std::vector<Excitation> excitations;
+  for (const TorsionRecord& record : *records) {
+    auto smooth = reconstruct(record);
+    if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + record.id));
+    excitations.push_back({record.id, record.split, record.amplitude, record.frequency_hz,
+                           std::move(smooth->motion), std::move(smooth->effort)});
+  }
+  return excitations;
+}
+
+Result<RecordingSet> simulate_set(const ModelSpec& model, const std::vector<Excitation>& excitations,
+                                  Direction direction, const DisplayUnits& units) {
+  RecordingSet set;
+  set.name = "simulated";
+  set.rig = Rig::specimen;
+  set.license = "CC0-1.0";
+  set.source = "flexspline simulate";
+  set.display = units;
+  const auto unit = find_unit(units.motion);
+  const bool linear = unit && unit->dimension == Dimension::length;
+  for (const Excitation& excitation : excitations) {
+    auto recording = simulate_one(model, excitation, direction, linear);
+    if (!recording) return tl::unexpected(recording.error());
+    set.recordings.push_back(std::move(*recording));
+  }
+  return set;
+}
+
+}  // namespace flexspline::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/model_spec.hpp"
+#include "flexspline/core/recording.hpp"
+#include "flexspline/core/signals.hpp"
+
+namespace flexspline::app {
+
+/// What drives a simulation: the motion, or in the other direction the effort.
+struct Excitation {
+  std::string id;
+  Split split = Split::unassigned;
+  std::optional<double> amplitude;
+  std::optional<double> frequency_hz;
+  Motion motion;
+  std::vector<double> effort;  ///< used where the torsion is simulated
+};
+
+enum class Direction { torque, torsion };
+
+/// A sine of so many cycles and samples a cycle; amplitude in rad, or in Nm for Direction::torsion.
+Excitation sine_excitation(double amplitude, double frequency_hz, long cycles, long samples,
+                           Direction direction);
+
+/// The excitations of a data set, smoothed.
+Result<std::vector<Excitation>> excitations_like(const RecordingSet& set);
+
+/// Simulates eq. (4), or eq. (3) from the excitation's first motion, into a specimen's data set.
+/// Errors: what the simulation refuses, with the recording's id.
+Result<RecordingSet> simulate_set(const ModelSpec& model, const std::vector<Excitation>& excitations,
+                                  Direction direction, const DisplayUnits& units);
+
+}  // namespace flexspline::app
