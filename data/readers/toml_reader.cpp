@@ -92,7 +92,9 @@ std::optional<double> TomlReader::finite(const toml::node& node, std::string_vie
     refuse_type(node, name, "a number");
     return std::nullopt;
   }
-  const double value = *node.value<double>();
+  const toml::value<int64_t>* whole = node.as_integer();
+  const double value =
+      whole != nullptr ? static_cast<double>(whole->get()) : node.as_floating_point()->get();
   if (std::isfinite(value)) return value;
   refuse(node.source(), fmt::format("{} is {}, which is not finite", name, value),
          "give a finite number");

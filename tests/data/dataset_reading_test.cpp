@@ -93,10 +93,11 @@ TEST_F(DatasetReadingTest, NotesColumnsThatAreNoChannels) {
 TEST_F(DatasetReadingTest, KeepsMetadataItDoesNotKnowOutOfTheWay) {
   const RecordingSet set =
       read(with(with(kDescription, "amplitude_deg = 0.2", "amplitude = 4.0\nfirmware_gain = 100"),
-                "gear_ratio = 50", "gear_ratio = 50\noil_viscosity_Pas = 0.1\ngear_rato = 3"),
+                "gear_ratio = 50",
+                "gear_ratio = 50\noil_viscosity_Pas = 9007199254740993\ngear_rato = 3"),
            sound_table());
   EXPECT_FALSE(set.recordings.at(0).amplitude.has_value()) << "4.0 of what is not said";
-  EXPECT_EQ(set.constants.at("oil_viscosity_Pas"), 0.1);
+  EXPECT_EQ(set.constants.at("oil_viscosity_Pas"), 9007199254740993.0);
   ASSERT_EQ(notes_.size(), 1U);
   EXPECT_THAT(notes_[0].message(), HasSubstr("dataset.toml:9:1: constant 'gear_rato' has no"));
 }

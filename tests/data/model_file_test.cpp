@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dataset_fixture.hpp"
+#include "flexspline/core/law.hpp"
 #include "flexspline/data/estimate_json.hpp"
 #include "flexspline/data/model_toml.hpp"
 
@@ -20,7 +21,10 @@ ModelSpec table_like_model() {
   model.f = {"odd_polynomial", 0.0034906585039886592, {}, {1.0 / 3.0, -2e-310, 3.0}, 0.1 + 0.2};
   model.g_inverse = {"odd_polynomial", 1e-5, {}, {4.123456789012345, -1e300}, 0.0};
   model.h = {"odd_polynomial", 1.0, {}, {5e-324}, 1.0};
-  model.effects = {{"torque_sensor_offset", {}}};
+  model.effects = {
+      {"torque_sensor_offset", {{"offset", 1.0 / 7.0}}},
+      {"presliding_hysteresis",
+       {{"stiffness", 2.0 / 3.0}, {"yield", 1e-4}, {"stiffness", 9.0}, {"yield", 0.01}}}};
   return model;
 }
 
@@ -55,12 +59,24 @@ TEST(ModelFile, ReadsBackToTheLastBit) {
   expect_same(*back, model);
 }
 
-TEST(ModelFile, WithoutHReadsBackWithoutOne) {
+TEST(ModelFile, WithoutHHasHOfOne) {
   ModelSpec model = table_like_model();
   model.h = {};
   const auto back = parse_model(model_toml(model), "MODEL.toml");
   ASSERT_TRUE(back.has_value()) << back.error().message();
-  EXPECT_EQ(back->h.law, "");
+  const auto h = make_law(back->h);
+  ASSERT_TRUE(h.has_value()) << h.error().message();
+  EXPECT_EQ(h.value()->value(0.3), 1.0);
+}
+
+TEST(ModelFile, IsAsItsDocumentationShows) {
+  const auto page = read_file(FLEXSPLINE_SOURCE_DIR "/docs/model-file.md");
+  ASSERT_TRUE(page.has_value()) << page.error().message();
+  const auto from = page->find("```toml\n") + 8;
+  const auto model = parse_model(page->substr(from, page->find("```", from) - from), "page");
+  ASSERT_TRUE(model.has_value()) << model.error().message();
+  EXPECT_EQ(model->f.coefficients.size(), 2U);
+  EXPECT_EQ(model->effects.size(), 1U);
 }
 
 TEST(ModelFile, RefusesNamingThePlace) {
@@ -75,8 +91,13 @@ TEST(ModelFile, RefusesNamingThePlace) {
               HasSubstr("MODEL.toml:4:7: unknown law 'odd_polynomal'; did you mean"));
   EXPECT_THAT(refusal(with(sound, "torque_sensor_offset", "torque_sensor_ofset")),
               HasSubstr("did you mean 'torque_sensor_offset'?"));
-  EXPECT_THAT(refusal(with(sound, "parameters = [", "parameters = [ { name = \"x\", value = 1 },")),
-              HasSubstr("effect 'torque_sensor_offset' has no parameter 'x'"));
+  EXPECT_THAT(refusal(with(sound, "\"offset\"", "\"ofset\"")),
+              HasSubstr("MODEL.toml:27:3: parameter 'ofset' stands where 'offset' belongs"));
+  EXPECT_THAT(refusal(with(sound, "{ name = \"stiffness\", value = 9.0 },", "")),
+              HasSubstr("parameter 'yield' stands where 'stiffness' belongs"));
+  EXPECT_THAT(refusal(with(sound, "{ name = \"yield\", value = 0.01 },", "")),
+              HasSubstr("has 3 parameters; it takes 2 an element"));
+  EXPECT_THAT(refusal(with(sound, "value = 9.0", "value = -9.0")), HasSubstr("out of range"));
   EXPECT_THAT(refusal(with(sound, "scale = 1e-05", "scale = -1.0")), HasSubstr("scale"));
   EXPECT_THAT(refusal(with(sound, "scale = 1e-05", "scale = inf")), HasSubstr("not finite"));
   EXPECT_THAT(refusal("schema = \"flexspline-model/1\"\n"), HasSubstr("no [g_inverse]"));

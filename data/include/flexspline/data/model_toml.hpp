@@ -15,7 +15,7 @@ std::string model_toml(const ModelSpec& model);
 
 /// Reads the text of a MODEL.toml; file names it in messages.
 /// Errors: bad_data with every finding at once, by file, line and column: unknown or missing keys,
-/// laws and effects that do not exist, numbers that do not fit their law.
+/// laws and effects that do not exist, numbers that do not fit them. Without [h], h = 1.
 Result<ModelSpec> parse_model(std::string_view text, const std::string& file);
 
 /// Errors: cannot_write.
