@@ -30,6 +30,14 @@ std::string digits(double value, int count) {
                      std::max(0, count - 1 - magnitude));
 }
 
+std::string compact(double value, int count) {
+  std::string text = digits(value, count);
+  if (text.find('.') == std::string::npos || text.find('e') != std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 std::vector<double> thinned(const std::vector<double>& values, std::size_t most) {
   if (values.size() <= most || most < 2) return values;
   const std::size_t step = (values.size() + most - 2) / (most - 1);

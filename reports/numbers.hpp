@@ -9,6 +9,9 @@ namespace flexspline::reports {
 /// where there is no number.
 std::string digits(double value, int count);
 
+/// The same without zeros at the end of a fraction, for labels: 0.2, not 0.200.
+std::string compact(double value, int count);
+
 /// The double nearest to the value written with `count` significant digits: short in JSON.
 double rounded(double value, int count);
 std::vector<double> rounded(std::vector<double> values, int count);

@@ -62,11 +62,11 @@ struct ContentHtml {
     return "<pre tabindex=\"0\"><code>" + escaped(listing.text) + "</code></pre>\n";
   }
   std::string operator()(const Table& table) const {
-    return "<div class=\"table\" tabindex=\"0\" role=\"region\" aria-label=\"" +
-           escaped(table.caption) + "\"><table id=\"table-" + table.id + "\"><caption>" +
-           escaped(table.caption) + " <span class=\"files\">tables/" + table.id +
-           ".csv, .md, .tex</span></caption>" + head_html(table) + rows_html(table) +
-           "</table></div>\n";
+    const std::string named = "aria-labelledby=\"caption-" + table.id + "\"";
+    return "<p class=\"caption\" id=\"caption-" + table.id + "\">" + escaped(table.caption) +
+           " <span class=\"files\">tables/" + table.id + ".csv, .md, .tex</span></p>\n" +
+           "<div class=\"table\" tabindex=\"0\" role=\"region\" " + named + "><table " + named +
+           ">" + head_html(table) + rows_html(table) + "</table></div>\n";
   }
   std::string operator()(const Figure& figure) const {
     return "<figure id=\"figure-" + escaped(figure.id) + "\" data-figure=\"" + escaped(figure.id) +

@@ -14,9 +14,12 @@ namespace {
 std::vector<EstimatorView> estimators_of(const std::vector<Case>& cases) {
   std::vector<EstimatorView> found;
   for (const Case& item : cases) {
-    const bool known = std::any_of(found.begin(), found.end(),
-                                   [&](const auto& other) { return other.id == item.estimator; });
-    if (!known) found.push_back({item.estimator, item.method, item.train.size(), 0});
+    auto known = std::find_if(found.begin(), found.end(),
+                              [&](const auto& other) { return other.id == item.estimator; });
+    if (known == found.end()) {
+      known = found.insert(known, {item.estimator, item.method, item.train.size(), 0, 0});
+    }
+    ++known->cases;
   }
   std::sort(found.begin(), found.end(), [](const EstimatorView& a, const EstimatorView& b) {
     return std::tuple(!a.is_midpoint(), a.loops, a.id) < std::tuple(!b.is_midpoint(), b.loops, b.id);
@@ -42,8 +45,8 @@ std::string place_of(const Input& input, const CaseRecording& recording) {
   if (!std::isfinite(recording.amplitude) || !std::isfinite(recording.frequency_hz)) {
     return recording.id;
   }
-  return digits(recording.amplitude, 4) + " " + input.units.motion + ", " +
-         digits(recording.frequency_hz, 4) + " Hz";
+  return compact(recording.amplitude, 4) + " " + input.units.motion + ", " +
+         compact(recording.frequency_hz, 4) + " Hz";
 }
 
 StudyView::StudyView(Artefacts artefacts) : artefacts_(std::move(artefacts)) {
@@ -61,9 +64,18 @@ const EstimatorView* StudyView::full_trajectory() const {
   const EstimatorView* best = nullptr;
   for (const EstimatorView& estimator : estimators_) {
     if (!estimator.is_trajectory()) continue;
-    if (best == nullptr || estimator.loops > best->loops) best = &estimator;
+    const auto rank = [](const EstimatorView& one) { return std::pair(one.cases, one.loops); };
+    if (best == nullptr || rank(estimator) > rank(*best)) best = &estimator;
   }
   return best;
+}
+
+std::vector<const EstimatorView*> StudyView::principal() const {
+  std::vector<const EstimatorView*> found;
+  for (const EstimatorView* one : {paper_fit(), full_trajectory()}) {
+    if (one != nullptr) found.push_back(one);
+  }
+  return found;
 }
 
 const Case* StudyView::find(const Input& input, const EstimatorView& estimator) const {
@@ -89,16 +101,23 @@ OperatingPoint StudyView::operating_point(const Input& input) const {
   return {};
 }
 
-std::vector<std::string> StudyView::unseen(const Input& input) const {
-  std::set<std::string> seen;
+std::set<std::string> StudyView::trained_on(const Input& input) const {
+  std::set<std::string> ids;
   for (const Case& item : artefacts_.cases) {
-    if (item.input == input.id) seen.insert(item.train.begin(), item.train.end());
+    if (item.input == input.id) ids.insert(item.train.begin(), item.train.end());
   }
-  std::vector<std::string> unseen;
-  for (const InputRecording& recording : input.recordings) {
-    if (!seen.contains(recording.id)) unseen.push_back(recording.id);
+  return ids;
+}
+
+std::vector<const CaseRecording*> StudyView::held_out(const Input& input, const Case& item) const {
+  const std::set<std::string> anybody = trained_on(input);
+  std::vector<const CaseRecording*> own, common;
+  for (const CaseRecording& recording : item.recordings) {
+    if (recording.trained) continue;
+    own.push_back(&recording);
+    if (!anybody.contains(recording.id)) common.push_back(&recording);
   }
-  return unseen;
+  return common.empty() ? own : common;
 }
 
 bool StudyView::selected(const Input& input, const CaseRecording& recording,
@@ -125,22 +144,13 @@ Worst StudyView::worst(const Input& input, const EstimatorView& estimator,
   Worst worst;
   const Case* item = find(input, estimator);
   if (item == nullptr) return worst;
-  const auto common = unseen(input);
-  const auto is_common = [&](const CaseRecording& recording) {
-    return std::find(common.begin(), common.end(), recording.id) != common.end();
-  };
-  const auto take = [&](bool only_common) {
-    for (const CaseRecording& recording : item->recordings) {
-      if (recording.trained || (only_common && !is_common(recording))) continue;
-      if (!selected(input, recording, elsewhere)) continue;
-      const double percent = recording.error_percent();
-      if (!(worst.percent >= percent) && std::isfinite(percent)) {
-        worst = {percent, place_of(input, recording)};
-      }
+  for (const CaseRecording* recording : held_out(input, *item)) {
+    if (!selected(input, *recording, elsewhere)) continue;
+    const double percent = recording->error_percent();
+    if (!(worst.percent >= percent) && std::isfinite(percent)) {
+      worst = {percent, place_of(input, *recording)};
     }
-  };
-  take(true);
-  if (!std::isfinite(worst.percent)) take(false);
+  }
   return worst;
 }
 

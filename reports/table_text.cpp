@@ -93,7 +93,8 @@ bool is_numeric(const Table& table, std::size_t column) {
 
 std::string shown(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  return digits(std::get<double>(cell), column.digits);
+  const double value = std::get<double>(cell);
+  return column.digits == 0 ? compact(value, 6) : digits(value, column.digits);
 }
 
 std::string csv_of(const Table& table) {

@@ -32,7 +32,7 @@ Grid grid_of(const Input& input) {
 
 std::vector<std::string> labels(const std::vector<double>& values) {
   std::vector<std::string> labels;
-  for (const double value : values) labels.push_back(digits(value, 3));
+  for (const double value : values) labels.push_back(compact(value, 3));
   return labels;
 }
 

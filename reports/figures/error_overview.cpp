@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 
 #include "figures/study_figures.hpp"
+#include "numbers.hpp"
 
 namespace flexspline::reports {
 namespace {
@@ -45,6 +47,23 @@ Panel torque_panel(const StudyView& view, const std::string& title, Elsewhere el
   });
 }
 
+/// The same whole decades on every panel, so that they can be compared.
+void share_decades(std::vector<Panel>& panels) {
+  double lower = HUGE_VAL, upper = 0.0;
+  for (const Panel& panel : panels) {
+    for (const Series& series : panel.series) {
+      for (const double error : series.x) {
+        lower = std::min(lower, error);
+        upper = std::max(upper, error);
+      }
+    }
+  }
+  if (upper == 0.0) return;
+  const double first = std::pow(10.0, std::floor(std::log10(0.8 * lower)));
+  const double last = std::pow(10.0, std::ceil(std::log10(1.25 * upper)));
+  for (Panel& panel : panels) panel.x.range = {rounded(first, 3), rounded(last, 3)};
+}
+
 }  // namespace
 
 Figure error_overview_figure(const StudyView& view) {
@@ -63,6 +82,7 @@ Figure error_overview_figure(const StudyView& view) {
            torque_panel(view, "effort, other frequency", Elsewhere::other_frequency)}) {
     if (!panel.series.empty()) frame.panels.push_back(std::move(panel));
   }
+  share_decades(frame.panels);
   if (!frame.panels.empty()) figure.frames.push_back(std::move(frame));
   return figure;
 }

@@ -74,8 +74,8 @@ Panel loop_panel(const StudyView& view, const Input& input, const InputRecording
 std::vector<std::string> choice_of(const StudyView& view, const Input& input,
                                    const InputRecording& recording) {
   if (!view.on_grid()) return {input.title, recording.id};
-  return {input.title, digits(recording.amplitude, 4) + " " + input.units.motion,
-          digits(recording.frequency_hz, 4) + " Hz"};
+  return {input.title, compact(recording.amplitude, 4) + " " + input.units.motion,
+          compact(recording.frequency_hz, 4) + " Hz"};
 }
 
 bool before(const InputRecording& a, const InputRecording& b) {
@@ -92,8 +92,8 @@ Figure own_loop_figure(const StudyView& view) {
   figure.id = "own-loop";
   figure.title = "The loop that every estimator was given";
   figure.caption =
-      "Look for daylight between the lines: on this loop there is hardly any, whichever physics the "
-      "input hides. That is why a training loop proves nothing.";
+      "Look for daylight between the lines. Where there is none, this loop cannot tell the estimators "
+      "apart: agreement on what was fitted proves nothing.";
   figure.alt = "Hysteresis loop, effort over motion: measured, and simulated by every estimator.";
   figure.pickers = {"input"};
   for (const Input& input : view.artefacts().inputs) {

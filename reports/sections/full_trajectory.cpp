@@ -26,7 +26,8 @@ constexpr TorqueColumn kTorqueColumns[] = {{"other amplitude", Elsewhere::other_
                                            {"beyond the domain", Elsewhere::beyond_domain}};
 
 /// An input a row, the principal estimators side by side.
-Table side_by_side(const StudyView& view, const std::vector<const EstimatorView*>& principal) {
+Table side_by_side(const StudyView& view) {
+  const auto principal = view.principal();
   Table table{"paper-against-full",
               "Errors in percent: of f and g⁻¹ over the training range, of their edge values; of the "
               "effort, the worst recording that nobody was trained on, of its peak, at the "
@@ -70,6 +71,7 @@ Table in_full(const StudyView& view) {
   }
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {
+      if (view.find(input, estimator) == nullptr) continue;
       std::vector<Cell> row{input.title, estimator.id};
       for (const char* function : {"f", "g_inverse", "h"}) {
         row.emplace_back(function_error(view, input, estimator, function));
@@ -124,10 +126,7 @@ std::optional<Section> draw(const StudyView& view) {
   section.add(Verdict{verdict_of(view)});
   Figure figure = error_overview_figure(view);
   if (!figure.frames.empty()) section.add(std::move(figure));
-  std::vector<const EstimatorView*> principal;
-  if (view.paper_fit() != nullptr) principal.push_back(view.paper_fit());
-  if (view.full_trajectory() != nullptr) principal.push_back(view.full_trajectory());
-  if (!principal.empty()) section.add(side_by_side(view, principal));
+  if (!view.principal().empty()) section.add(side_by_side(view));
   section.fold("Every estimator, and where it is worst", in_full(view));
   return section;
 }

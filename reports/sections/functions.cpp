@@ -60,7 +60,8 @@ void add_reasons(const StudyView& view, Section& section) {
     for (const EstimatorView& estimator : view.estimators()) {
       const Case* item = view.find(input, estimator);
       if (item == nullptr || item->failed || item->band("h") != nullptr) continue;
-      if (item->says.empty() || !told.insert(estimator.id).second) continue;
+      const bool refused = item->verdict == "weak" || item->verdict == "not_identifiable";
+      if (!refused || item->says.empty() || !told.insert(estimator.id).second) continue;
       section.add(Paragraph{"No h from " + estimator.id + " on " + input.title + ": " + item->says});
     }
   }

@@ -8,42 +8,65 @@
 namespace flexspline::reports {
 namespace {
 
-std::vector<double> held_out(const Case& item) {
+std::vector<double> errors_of(const std::vector<const CaseRecording*>& recordings) {
   std::vector<double> errors;
-  for (const CaseRecording& recording : item.recordings) {
-    if (!recording.trained) errors.push_back(recording.error_percent());
-  }
+  for (const CaseRecording* recording : recordings) errors.push_back(recording->error_percent());
   return errors;
 }
 
-std::vector<Cell> row_of(const StudyView& view, const Input& input,
-                         const EstimatorView& estimator) {
-  const Case* item = view.find(input, estimator);
-  if (item == nullptr) return {input.title, estimator.id, kAbsent, kAbsent, kAbsent, "not run"};
-  if (item->failed) {
-    const std::string remedy = item->remedy.empty() ? "" : "; " + item->remedy;
+std::vector<Cell> row_of(const StudyView& view, const Input& input, const EstimatorView& estimator,
+                         const Case& item) {
+  if (item.failed) {
+    const std::string remedy = item.remedy.empty() ? "" : "; " + item.remedy;
     return {input.title, estimator.id, kAbsent, kAbsent, kAbsent,
-            "failed: " + item->failure + remedy};
+            "failed: " + item.failure + remedy};
   }
-  const std::vector<double> errors = held_out(*item);
+  const std::vector<double> errors = errors_of(view.held_out(input, item));
   const Worst worst = view.worst(input, estimator, Elsewhere::anywhere);
-  return {input.title,     estimator.id,  static_cast<double>(errors.size()),
+  return {input.title,    estimator.id,  static_cast<double>(errors.size()),
           median(errors), worst.percent, worst.where};
 }
 
-Table table_of(const StudyView& view) {
-  Table table{"hold-out",
-              "Error of the simulated effort on held-out recordings, in percent of each "
-              "recording's peak: against the noise-free torque where the bench knows it, else "
-              "against what was measured. The worst is taken over recordings that no estimator "
-              "was trained on, where there are any.",
-              {{"input", "", 3}, {"estimator", "", 3}, {"recordings held out", "", 3},
+constexpr const char* kWhatIsShown =
+    "Error of the simulated effort on held-out recordings, in percent of each recording's peak: "
+    "against the noise-free torque where the bench knows it, else against what was measured. Held "
+    "out are the recordings that no estimator was trained on; where there are none, those that this "
+    "one was not.";
+
+Table in_full(const StudyView& view) {
+  Table table{"hold-out-every-estimator",
+              kWhatIsShown,
+              {{"input", "", 3}, {"estimator", "", 3}, {"recordings held out", "", 0},
                {"median", "%", 2}, {"worst", "%", 2}, {"where, or why there is no number", "", 3}},
               {}};
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {
-      table.rows.push_back(row_of(view, input, estimator));
+      const Case* item = view.find(input, estimator);
+      if (item != nullptr) table.rows.push_back(row_of(view, input, estimator, *item));
     }
+  }
+  return table;
+}
+
+/// An input a row, the principal estimators side by side.
+Table side_by_side(const StudyView& view) {
+  Table table{"hold-out", kWhatIsShown, {{"input", "", 3}}, {}};
+  const auto principal = view.principal();
+  for (const EstimatorView* estimator : principal) {
+    table.columns.push_back({estimator->id + ", median", "%", 2});
+    table.columns.push_back({estimator->id + ", worst", "%", 2});
+    table.columns.push_back({"worst at", "", 3});
+  }
+  for (const Input& input : view.artefacts().inputs) {
+    std::vector<Cell> row{input.title};
+    for (const EstimatorView* estimator : principal) {
+      const Case* item = view.find(input, *estimator);
+      const Worst worst = view.worst(input, *estimator, Elsewhere::anywhere);
+      row.emplace_back(item != nullptr ? median(errors_of(view.held_out(input, *item))) : kAbsent);
+      row.emplace_back(worst.percent);
+      row.emplace_back(item == nullptr ? "not run" : item->failed ? "failed" : worst.where);
+    }
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -66,7 +89,7 @@ std::string verdict_of(const StudyView& view) {
   }
   if (!std::isfinite(highest.percent)) return {};
   const std::string answer = highest.percent < 2.0 ? "Yes: " : "No: ";
-  return answer + "on loops it had not seen, the worst error of " + paper->id + " is between " +
+  return answer + "on loops that nobody was trained on, the worst error of " + paper->id + " is between " +
          digits(lowest, 2) + " % and " + digits(highest.percent, 2) + " % of peak (" +
          highest_input + " at " + highest.where + ").";
 }
@@ -79,7 +102,8 @@ std::optional<Section> draw(const StudyView& view) {
   if (!map.frames.empty()) section.add(std::move(map));
   Figure loops = loops_figure(view);
   if (!loops.frames.empty()) section.add(std::move(loops));
-  section.add(table_of(view));
+  if (!view.principal().empty()) section.add(side_by_side(view));
+  section.fold("Every estimator, and what failed", in_full(view));
   return section;
 }
 

@@ -13,8 +13,8 @@ std::string relative_place(const OperatingPoint& point, const InputRecording& re
   const double amplitude = recording.amplitude / point.amplitude;
   const double frequency = recording.frequency_hz / point.frequency_hz;
   if (!std::isfinite(amplitude) || !std::isfinite(frequency)) return recording.id;
-  return "(" + digits(std::round(amplitude * 1000.0) / 1000.0, 3) + ", " +
-         digits(std::round(frequency * 1000.0) / 1000.0, 3) + ")";
+  return "(" + compact(std::round(amplitude * 1000.0) / 1000.0, 3) + ", " +
+         compact(std::round(frequency * 1000.0) / 1000.0, 3) + ")";
 }
 
 Table by_recording(const StudyView& view, const Input& input) {
@@ -22,7 +22,7 @@ Table by_recording(const StudyView& view, const Input& input) {
   Table table{"errors-" + slug(input.id),
               "Error in percent of peak on " + input.title +
                   ", by (amplitude, frequency) relative to the operating point.",
-              {{"estimator", "", 3}, {"loops trained on", "", 3}}, {}};
+              {{"estimator", "", 3}, {"loops trained on", "", 0}}, {}};
   for (const InputRecording& recording : input.recordings) {
     table.columns.push_back({relative_place(point, recording), "%", 2});
   }

@@ -13,18 +13,22 @@ const CaseRecording* own(const StudyView& view, const Input& input,
   return item != nullptr ? item->recording(view.operating_point(input).recording) : nullptr;
 }
 
-Table table_of(const StudyView& view) {
-  Table table{"own-loop", "RMSE on the loop at the operating point, in percent of its peak "
-                          "(measured against simulated), and the error of the loop's area.",
-              {{"input", "", 3}, {"loop", "", 3}}, {}};
-  for (const EstimatorView& estimator : view.estimators()) {
-    table.columns.push_back({estimator.id + ", rmse", "%", 2});
-    table.columns.push_back({estimator.id + ", area", "%", 2});
+/// An input a row, the principal estimators side by side.
+Table side_by_side(const StudyView& view) {
+  Table table{"own-loop",
+              "RMSE on the loop at the operating point in percent of its peak, measured against "
+              "simulated, and the error of the loop's area.",
+              {{"input", "", 3}, {"loop", "", 3}},
+              {}};
+  const auto principal = view.principal();
+  for (const EstimatorView* estimator : principal) {
+    table.columns.push_back({estimator->id + ", rmse", "%", 2});
+    table.columns.push_back({estimator->id + ", area", "%", 2});
   }
   for (const Input& input : view.artefacts().inputs) {
     std::vector<Cell> row{input.title, view.operating_point(input).recording};
-    for (const EstimatorView& estimator : view.estimators()) {
-      const CaseRecording* fit = own(view, input, estimator);
+    for (const EstimatorView* estimator : principal) {
+      const CaseRecording* fit = own(view, input, *estimator);
       row.emplace_back(fit != nullptr ? fit->rmse_percent : kAbsent);
       row.emplace_back(fit != nullptr ? fit->area_error_percent : kAbsent);
     }
@@ -33,23 +37,38 @@ Table table_of(const StudyView& view) {
   return table;
 }
 
+Table in_full(const StudyView& view) {
+  Table table{"own-loop-every-estimator",
+              "The same for every estimator, in the unit of the effort too.",
+              {{"input", "", 3}, {"estimator", "", 3}, {"rmse", "unit of effort", 3},
+               {"rmse", "%", 2}, {"area", "%", 2}},
+              {}};
+  for (const Input& input : view.artefacts().inputs) {
+    for (const EstimatorView& estimator : view.estimators()) {
+      const CaseRecording* fit = own(view, input, estimator);
+      if (fit == nullptr) continue;
+      table.rows.push_back({input.title, estimator.id, fit->rmse, fit->rmse_percent,
+                            fit->area_error_percent});
+    }
+  }
+  return table;
+}
+
 std::string verdict_of(const StudyView& view) {
   const EstimatorView* paper = view.paper_fit();
   if (paper == nullptr) return {};
-  double worst = kAbsent;
-  std::string where;
+  Worst worst;
   for (const Input& input : view.artefacts().inputs) {
     const CaseRecording* fit = own(view, input, *paper);
     if (fit == nullptr || !std::isfinite(fit->rmse_percent)) continue;
-    if (!(worst >= fit->rmse_percent)) {
-      worst = fit->rmse_percent;
-      where = input.title;
-    }
+    if (!(worst.percent >= fit->rmse_percent)) worst = {fit->rmse_percent, input.title};
   }
-  if (!std::isfinite(worst)) return "The paper's fit gave no loop to look at.";
-  const std::string answer = worst < 2.0 ? "Yes: " : worst < 5.0 ? "Roughly: " : "Not everywhere: ";
+  if (!std::isfinite(worst.percent)) return "The paper's fit gave no loop to look at.";
+  const std::string answer = worst.percent < 2.0   ? "Yes: "
+                             : worst.percent < 5.0 ? "Roughly: "
+                                                   : "Not everywhere: ";
   return answer + "on the loop it was fitted to, " + paper->id + " is off by at most " +
-         digits(worst, 2) + " % of peak, measurement noise included (" + where + ").";
+         digits(worst.percent, 2) + " % of peak, measurement noise included (" + worst.where + ").";
 }
 
 std::optional<Section> draw(const StudyView& view) {
@@ -58,7 +77,8 @@ std::optional<Section> draw(const StudyView& view) {
   if (const std::string verdict = verdict_of(view); !verdict.empty()) section.add(Verdict{verdict});
   Figure figure = own_loop_figure(view);
   if (!figure.frames.empty()) section.add(std::move(figure));
-  section.add(table_of(view));
+  if (!view.principal().empty()) section.add(side_by_side(view));
+  section.fold("Every estimator on this loop", in_full(view));
   return section;
 }
 

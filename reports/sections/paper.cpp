@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 
 #include "figures/study_figures.hpp"
 #include "flexspline/reports/section.hpp"
@@ -7,15 +8,28 @@
 namespace flexspline::reports {
 namespace {
 
+/// Leading significant digits, up to those published, to which ours rounds to the published value.
+int agreeing_digits(const Fact& fact) {
+  char* end = nullptr;
+  const double published = std::strtod(fact.published.c_str(), &end);
+  if (end == fact.published.c_str() || !std::isfinite(fact.value)) return 0;
+  int agreeing = 0;
+  for (int count = 1; count <= fact.digits; ++count) {
+    if (same(rounded(fact.value, count), rounded(published, count))) agreeing = count;
+  }
+  return agreeing;
+}
+
 Table facts_table(const Paper& paper) {
   Table table{"paper-facts",
               "What can be computed from the paper's own numbers, beside what was published.",
               {{"fact", "", 3}, {"ours", "", 5}, {"published", "", 3}, {"unit", "", 3},
-               {"agrees to digits", "", 3}},
+               {"digits published", "", 0}, {"digits that agree", "", 0}},
               {}};
   for (const Fact& fact : paper.facts) {
     table.rows.push_back({fact.says, fact.value, fact.published, fact.unit,
-                          fact.digits > 0 ? Cell(static_cast<double>(fact.digits)) : Cell("")});
+                          fact.digits > 0 ? static_cast<double>(fact.digits) : kAbsent,
+                          fact.digits > 0 ? static_cast<double>(agreeing_digits(fact)) : kAbsent});
   }
   return table;
 }
@@ -44,12 +58,12 @@ Table table_two(const Paper& paper) {
 std::string verdict_of(const Paper& paper) {
   std::size_t known = 0, agree = 0;
   for (const Fact& fact : paper.facts) {
-    if (fact.published.empty()) continue;
+    if (fact.digits <= 0) continue;
     ++known;
-    if (fact.digits >= 2) ++agree;
+    if (agreeing_digits(fact) == fact.digits) ++agree;
   }
   return std::to_string(agree) + " of " + std::to_string(known) +
-         " known facts of the paper are recomputed to two digits or more.";
+         " facts about the paper's numbers are recomputed to every digit that is known of them.";
 }
 
 std::optional<Section> draw(const StudyView& view) {

@@ -16,19 +16,33 @@ struct Spread {
   std::size_t count = 0;
 };
 
-Spread spread_of(const StudyView& view, const EstimatorView& estimator, bool trained) {
+std::vector<const CaseRecording*> trained(const Case& item) {
+  std::vector<const CaseRecording*> found;
+  for (const CaseRecording& recording : item.recordings) {
+    if (recording.trained) found.push_back(&recording);
+  }
+  return found;
+}
+
+enum class Loops { trained, unseen };
+
+/// Over the loops an estimator was given, or over those that nobody was; where another estimator is
+/// named, on the inputs on which both ran.
+Spread spread_of(const StudyView& view, const EstimatorView& estimator, Loops loops,
+                 const EstimatorView* other = nullptr) {
   Spread spread;
   std::vector<double> all;
   for (const Input& input : view.artefacts().inputs) {
     const Case* item = view.find(input, estimator);
-    if (item == nullptr) continue;
-    for (const CaseRecording& recording : item->recordings) {
-      const double error = recording.error_percent();
-      if (recording.trained != trained || !std::isfinite(error)) continue;
+    if (item == nullptr || (other != nullptr && view.find(input, *other) == nullptr)) continue;
+    const bool unseen = loops == Loops::unseen;
+    for (const CaseRecording* recording : unseen ? view.held_out(input, *item) : trained(*item)) {
+      const double error = recording->error_percent();
+      if (!std::isfinite(error)) continue;
       all.push_back(error);
       if (!(spread.worst >= error)) {
         spread.worst = error;
-        spread.worst_where = input.title + " at " + place_of(input, recording);
+        spread.worst_where = input.title + " at " + place_of(input, *recording);
       }
       if (!(spread.best <= error)) spread.best = error;
     }
@@ -39,8 +53,8 @@ Spread spread_of(const StudyView& view, const EstimatorView& estimator, bool tra
 }
 
 std::string sentence_of(const StudyView& view, const EstimatorView& estimator) {
-  const Spread own = spread_of(view, estimator, true);
-  const Spread other = spread_of(view, estimator, false);
+  const Spread own = spread_of(view, estimator, Loops::trained);
+  const Spread other = spread_of(view, estimator, Loops::unseen);
   std::string text = estimator.id;
   if (own.count > 0) {
     text += " fits the loops it was given to " + digits(own.middle, 2) +
@@ -49,7 +63,7 @@ std::string sentence_of(const StudyView& view, const EstimatorView& estimator) {
     text += " gave no numbers on the loops it was given";
   }
   if (other.count > 0) {
-    text += "; on the " + std::to_string(other.count) + " it had not seen it is off by " +
+    text += "; on the " + std::to_string(other.count) + " that were kept from every estimator it is off by " +
             digits(other.best, 2) + " % at best, " + digits(other.middle, 2) +
             " % in the middle case and " + digits(other.worst, 2) + " % at worst (" +
             other.worst_where + ")";
@@ -57,22 +71,32 @@ std::string sentence_of(const StudyView& view, const EstimatorView& estimator) {
   return text + ".";
 }
 
-std::size_t failures(const StudyView& view) {
-  const auto& cases = view.artefacts().cases;
-  return static_cast<std::size_t>(
-      std::count_if(cases.begin(), cases.end(), [](const Case& item) { return item.failed; }));
+/// How many failed, and the first of them with their reasons.
+void add_failures(const StudyView& view, Section& section) {
+  constexpr std::size_t kTold = 5;
+  std::size_t count = 0;
+  std::string reasons;
+  for (const Case& item : view.artefacts().cases) {
+    if (!item.failed) continue;
+    if (++count <= kTold) reasons += " " + item.key + ": " + item.failure + ".";
+  }
+  if (count == 0) return;
+  section.add(Paragraph{std::to_string(count) + " of " +
+                        std::to_string(view.artefacts().cases.size()) +
+                        " cases failed and have no numbers." + reasons +
+                        (count > kTold ? " The others are listed under Cases." : "")});
 }
 
 std::string summary_of(const StudyView& view) {
   const EstimatorView* paper = view.paper_fit();
   const EstimatorView* full = view.full_trajectory();
   if (paper == nullptr || full == nullptr) return {};
-  const Spread a = spread_of(view, *paper, false);
-  const Spread b = spread_of(view, *full, false);
+  const Spread a = spread_of(view, *paper, Loops::unseen, full);
+  const Spread b = spread_of(view, *full, Loops::unseen, paper);
   if (!(a.middle > 0.0) || !(b.middle > 0.0)) return {};
   const bool full_wins = b.middle < a.middle;
   const double ratio = full_wins ? a.middle / b.middle : b.middle / a.middle;
-  return "On loops they had not seen, " + (full_wins ? full->id : paper->id) + " is " +
+  return "On loops that nobody was trained on, " + (full_wins ? full->id : paper->id) + " is " +
          digits(ratio, 2) + " times closer than " + (full_wins ? paper->id : full->id) +
          " in the middle case (" + digits(std::min(a.middle, b.middle), 2) + " % against " +
          digits(std::max(a.middle, b.middle), 2) + " % of peak), and its worst is " +
@@ -89,12 +113,7 @@ std::optional<Section> draw(const StudyView& view) {
   for (const EstimatorView& estimator : view.estimators()) {
     section.add(Paragraph{sentence_of(view, estimator)});
   }
-  if (const std::size_t count = failures(view); count > 0) {
-    section.add(Paragraph{std::to_string(count) + " of " +
-                          std::to_string(view.artefacts().cases.size()) +
-                          " cases failed; each is listed below with its reason, and none of them "
-                          "has numbers."});
-  }
+  add_failures(view, section);
   return section;
 }
 

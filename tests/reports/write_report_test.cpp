@@ -85,7 +85,7 @@ TEST(WriteReport, ShowsHostileNamesWithoutRunningThem) {
 TEST(WriteReport, ShowsAFailedCaseWithItsReasonAndNoNumbers) {
   const StudyFolder study;
   ASSERT_TRUE(write_report(study.path()));
-  EXPECT_TRUE(contains(study.text("tables/hold-out.csv"), "trajectory_one_loop,,,,failed: the "
+  EXPECT_TRUE(contains(study.text("tables/hold-out-every-estimator.csv"), "trajectory_one_loop,,,,failed: the "
                                                            "simulation of a0.2000-f0.01000"));
   EXPECT_TRUE(contains(study.text("report/index.html"), "1 of 16 cases failed"));
 }

@@ -2,7 +2,7 @@
 
 import type { Cell, Figure, Panel } from "./document";
 import { escapeHtml, shown } from "./numbers";
-import { heatColours, inkOn, theme } from "./theme";
+import { heatColours, inkOn, kFont, theme } from "./theme";
 
 type Option = Record<string, any>;
 
@@ -15,8 +15,7 @@ function shareOf(value: number, scale: [number, number]): number {
 
 function cellText(value: number | null): string {
   if (value === null) return "–";
-  if (value >= 1000) return value.toExponential(0).replace("e+", "e");
-  return shown(value, value >= 1 ? 2 : 2);
+  return value >= 1e5 ? value.toExponential(0).replace("e+", "e") : shown(value, 2);
 }
 
 function cellOption(cell: Cell, scale: [number, number]): Option {
@@ -58,7 +57,7 @@ export function heatmapOption(panel: Panel, figure: Figure): Option {
   const scale = figure.scale ?? [0.1, 100];
   return {
     animation: false,
-    textStyle: { color: colours.text, fontFamily: "inherit" },
+    textStyle: { color: colours.text, fontFamily: kFont },
     grid: { left: 8, right: 8, top: 8, bottom: 8, outerBoundsMode: "same", outerBounds: { left: 4, right: 4, top: 4, bottom: 4 } },
     tooltip: {
       confine: true,

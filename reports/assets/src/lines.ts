@@ -2,7 +2,7 @@
 
 import type { Axis, Panel, Series } from "./document";
 import { escapeHtml, shown, tick } from "./numbers";
-import { colourOf, dashOf, symbolOf, theme, widthOf } from "./theme";
+import { colourOf, dashOf, isReference, kFont, symbolOf, theme, widthOf } from "./theme";
 
 type Option = Record<string, any>;
 
@@ -30,38 +30,49 @@ function bandSeries(series: Series): Option {
   };
 }
 
-function pointSeries(series: Series): Option {
+/** Over categories, symbols of different estimators stand a little apart, so that none hides another. */
+function pointSeries(series: Series, dodged: boolean): Option {
   return {
     type: "scatter",
     name: series.name,
     data: pairs(series),
     symbol: symbolOf(series),
     symbolSize: series.x.length > 60 ? 4 : 11,
+    symbolOffset: dodged ? [0, (series.rank % 4) * 6 - 9] : [0, 0],
     itemStyle: { color: colourOf(series), opacity: 0.9 },
     z: 3,
   };
 }
 
+const hasSymbols = (series: Series) => series.style === "points" || series.x.length <= 12;
+
 function lineSeries(series: Series): Option {
-  const few = series.x.length <= 12;
+  const few = hasSymbols(series);
   return {
     type: "line",
     name: series.name,
     data: pairs(series),
     showSymbol: few,
-    symbol: symbolOf(series),
+    symbol: few ? symbolOf(series) : "none",
     symbolSize: 8,
-    lineStyle: { color: colourOf(series), width: widthOf(series), type: dashOf(series), opacity: series.role === "measured" ? 0.55 : 1 },
+    lineStyle: { color: colourOf(series), width: widthOf(series), type: dashOf(series), opacity: isReference(series) ? 0.4 : 1 },
     itemStyle: { color: colourOf(series) },
     emphasis: { disabled: true },
     animation: false,
-    z: series.role === "measured" ? 2 : 3,
+    z: isReference(series) ? 2 : 3,
   };
 }
 
-function seriesOption(series: Series): Option {
+function seriesOption(series: Series, panel: Panel): Option {
   if (series.style === "band") return bandSeries(series);
-  return series.style === "points" ? pointSeries(series) : lineSeries(series);
+  return series.style === "points" ? pointSeries(series, Boolean(panel.y.categories)) : lineSeries(series);
+}
+
+/** Bands come last, because the legend draws the first series of a name. */
+function seriesOptions(panel: Panel): Option[] {
+  const bands = panel.series.filter((one) => one.style === "band");
+  const others = panel.series.filter((one) => one.style !== "band");
+  return [...others, ...bands].map((one) => seriesOption(one, panel));
 }
 
 /** Where something on the x axis ends, each label one line below the one before. */
@@ -70,6 +81,7 @@ function markOption(panel: Panel): Option {
   return {
     silent: true,
     symbol: "none",
+    precision: 12,
     lineStyle: { color: theme().muted, type: [4, 4], width: 1 },
     data: (panel.marks ?? []).map((mark) => {
       const again = labelled.has(mark.label);
@@ -79,7 +91,18 @@ function markOption(panel: Panel): Option {
   };
 }
 
-function axisOption(axis: Axis, other: Option): Option {
+/** A logarithmic axis of few values, e.g. frequencies, is labelled at those values. */
+function ticksAtData(axis: Axis, values: number[]): Option {
+  const distinct = [...new Set(values)];
+  return axis.log && !axis.range && distinct.length < 9 ? { customValues: distinct } : {};
+}
+
+function logRange(axis: Axis, values: number[]): Option {
+  if (!axis.log || axis.range || !values.length) return {};
+  return { min: Math.min(...values) / 1.25, max: Math.max(...values) * 1.25 };
+}
+
+function axisOption(axis: Axis, values: number[], other: Option): Option {
   const colours = theme();
   const common = {
     name: axis.label,
@@ -100,7 +123,16 @@ function axisOption(axis: Axis, other: Option): Option {
     scale: true,
     min: axis.range?.[0],
     max: axis.range?.[1],
-    axisLabel: { color: colours.muted, fontSize: 11, formatter: tick, hideOverlap: true },
+    axisLabel: {
+      color: colours.muted,
+      fontSize: 11,
+      formatter: tick,
+      hideOverlap: true,
+      showMinLabel: axis.range && !axis.log ? false : undefined,
+      showMaxLabel: axis.range && !axis.log ? false : undefined,
+      ...ticksAtData(axis, values),
+    },
+    ...logRange(axis, values),
   };
 }
 
@@ -118,18 +150,36 @@ function tooltipText(panel: Panel, items: any[]): string {
   return `<b>${head}</b><br>${escapeHtml(panel.y.categories ? "" : panel.y.label)}<table>${values.join("")}</table>`;
 }
 
+function legendOption(panel: Panel): Option {
+  const colours = theme();
+  const shownOnes = panel.series.filter((one) => one.style !== "band");
+  return {
+    bottom: 0,
+    type: "scroll",
+    data: shownOnes.map((one) => ({ name: one.name, itemStyle: hasSymbols(one) ? {} : { opacity: 0 } })),
+    textStyle: { color: colours.text },
+    itemGap: 16,
+    itemWidth: panel.y.categories ? 12 : 30,
+    itemHeight: 10,
+    pageIconColor: colours.text,
+    pageIconInactiveColor: colours.grid,
+    pageTextStyle: { color: colours.text },
+    inactiveColor: colours.muted,
+  };
+}
+
 export function linesOption(panel: Panel): Option {
   const colours = theme();
   const overCategories = Boolean(panel.y.categories);
-  const series = panel.series.map(seriesOption);
+  const series = seriesOptions(panel);
   const carrier = series.find((one) => one.type !== "custom");
   if (carrier && panel.marks?.length) carrier.markLine = markOption(panel);
-  const names = [...new Set(panel.series.filter((one) => one.style !== "band").map((one) => one.name))];
+  const xs = panel.series.flatMap((one) => one.x.filter((x): x is number => x !== null));
   return {
     animation: false,
-    textStyle: { color: colours.text, fontFamily: "inherit" },
-    grid: { left: 12, right: 18, top: panel.marks?.length ? 22 : 12, bottom: 12, containLabel: true, outerBoundsMode: "same", outerBounds: { left: 4, right: 10, top: panel.marks?.length ? 22 : 8, bottom: 46 } },
-    legend: { bottom: 0, type: "scroll", data: names, formatter: (name: string) => name, textStyle: { color: colours.text, width: 180, overflow: "truncate" }, itemWidth: 34, itemHeight: 10, pageIconColor: colours.text, pageTextStyle: { color: colours.text }, inactiveColor: colours.muted },
+    textStyle: { color: colours.text, fontFamily: kFont },
+    grid: { left: overCategories ? 108 : 62, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74, outerBoundsMode: "none" },
+    legend: legendOption(panel),
     tooltip: {
       trigger: overCategories ? "item" : "axis",
       confine: true,
@@ -143,8 +193,8 @@ export function linesOption(panel: Panel): Option {
       { type: "inside", xAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseWheel: false },
       { type: "inside", yAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseWheel: false },
     ],
-    xAxis: axisOption(panel.x, { nameGap: 26 }),
-    yAxis: axisOption(panel.y, { nameGap: overCategories ? 12 : 44, inverse: overCategories }),
+    xAxis: axisOption(panel.x, xs, { nameGap: 26 }),
+    yAxis: axisOption(panel.y, [], { nameGap: overCategories ? 12 : 46, inverse: overCategories }),
     series,
   };
 }

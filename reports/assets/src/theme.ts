@@ -24,6 +24,9 @@ const kPaletteDark = ["#FF8A3D", "#56B4E9", "#2FCB9C", "#E59BC4", "#F0C419", "#7
 const kDashes: (string | number[])[] = ["solid", [9, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2], [12, 6]];
 const kSymbols = ["circle", "diamond", "triangle", "rect", "pin", "roundRect", "arrow"];
 
+/** Named, because the library measures text with it. */
+export const kFont = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif';
+
 const dark = window.matchMedia("(prefers-color-scheme: dark)");
 let printing = false;
 
@@ -52,13 +55,17 @@ export function colourOf(series: Series): string {
 }
 
 export function dashOf(series: Series): string | number[] {
-  if (series.role === "truth") return [3, 3];
-  if (series.role === "measured" || series.role === "published") return "solid";
-  return cycled(kDashes, series.rank);
+  if (isReference(series) || series.role === "published") return "solid";
+  return cycled(kDashes, series.rank + Math.floor(series.rank / kPaletteLight.length));
 }
 
 export function widthOf(series: Series): number {
-  return series.role === "measured" ? 3.5 : 1.8;
+  return isReference(series) ? 5 : 1.8;
+}
+
+/** What the others are compared with lies below them, wide and soft. */
+export function isReference(series: Series): boolean {
+  return series.role === "measured" || series.role === "truth";
 }
 
 export function symbolOf(series: Series): string {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct EstimatorView {
   std::string id;
   std::string method;
   std::size_t loops = 0;  ///< recordings it was trained on, on its first input
+  std::size_t cases = 0;  ///< how often it ran
   int rank = 0;
 
   bool is_midpoint() const { return method.starts_with("midpoint"); }
@@ -42,26 +44,31 @@ class StudyView {
   const Artefacts& artefacts() const { return artefacts_; }
   const std::vector<EstimatorView>& estimators() const { return estimators_; }
 
-  /// The paper's method on the fewest loops; the trajectory method on the most. Null where absent.
+  /// The paper's method on the fewest loops; the trajectory method that ran on the most inputs and,
+  /// among those, on the most loops. Null where absent.
   const EstimatorView* paper_fit() const;
   const EstimatorView* full_trajectory() const;
+  /// Those of the two that exist: the ones that tables set side by side.
+  std::vector<const EstimatorView*> principal() const;
 
   /// The case of the lowest replicate; null where the estimator did not run on the input.
   const Case* find(const Input& input, const EstimatorView& estimator) const;
 
   OperatingPoint operating_point(const Input& input) const;
 
-  /// Recordings of the input that no estimator of the study was trained on.
-  std::vector<std::string> unseen(const Input& input) const;
+  /// Recordings to judge a case by: those that no estimator was trained on; where there are none,
+  /// those that this one was not.
+  std::vector<const CaseRecording*> held_out(const Input& input, const Case& item) const;
 
-  /// Largest error on recordings held out from every estimator (from this one, where no such
-  /// recording exists) and, but for beyond_domain, within every estimator's domain of validity.
+  /// Largest error on held-out recordings: at another amplitude or frequency within every
+  /// estimator's domain of validity; beyond somebody's; or anywhere.
   Worst worst(const Input& input, const EstimatorView& estimator, Elsewhere elsewhere) const;
 
   /// True where every input's recordings differ in (amplitude, frequency) and have both.
   bool on_grid() const { return on_grid_; }
 
  private:
+  std::set<std::string> trained_on(const Input& input) const;
   bool selected(const Input& input, const CaseRecording& recording, Elsewhere elsewhere) const;
 
   Artefacts artefacts_;

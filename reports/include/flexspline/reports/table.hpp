@@ -12,7 +12,7 @@ using Cell = std::variant<std::string, double>;
 struct Column {
   std::string name;
   std::string unit;  ///< empty: none
-  int digits = 3;    ///< significant digits shown to a person; files keep all of them
+  int digits = 3;    ///< significant digits shown to a person, 0: a count; files keep all of them
 };
 
 /// A table, from which the page, CSV, Markdown and LaTeX are all written.
