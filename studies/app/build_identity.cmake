@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.25)
 # Writes OUTPUT with the commit and a hash over LIBRARIES, the layers that results come from, so that
 # a change of the report or of a command does not make a study start again. Rewritten only when it
 # differs.

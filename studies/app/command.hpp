@@ -12,11 +12,12 @@
 
 namespace flexspline::app {
 
-/// One argument of a command. Names that begin with - are options, others positions.
+/// One argument of a command. Names that begin with - are options, others positions; each takes a
+/// value.
 struct ArgumentInfo {
   std::string_view name;     ///< "study", "--out"
   std::string_view meaning;
-  std::string_view value{};  ///< what it takes, e.g. "DIR"; empty for an option: a flag
+  std::string_view value;    ///< what it takes, e.g. "DIR"
   bool required = false;
   bool repeats = false;      ///< may be given more than once
 };

@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.25)
 # Writes OUTPUT with every data/schemas/<name>.schema.json as a string, for the command `schema`.
 set(rows "")
 foreach(file IN LISTS FILES)

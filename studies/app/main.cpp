@@ -25,10 +25,6 @@ struct Slot {
 
 void add_argument(CLI::App& sub, Slot& slot) {
   const ArgumentInfo& info = *slot.info;
-  if (info.name.starts_with('-') && info.value.empty()) {
-    slot.option = sub.add_flag(std::string(info.name), std::string(info.meaning));
-    return;
-  }
   slot.option = sub.add_option(std::string(info.name), slot.values, std::string(info.meaning));
   slot.option->type_name(std::string(info.value))->required(info.required);
   slot.option->expected(1)->multi_option_policy(info.repeats ? CLI::MultiOptionPolicy::TakeAll

@@ -6,12 +6,23 @@
 #include "command.hpp"
 #include "dataset_study.hpp"
 #include "flexspline/data/artefact.hpp"
+#include "flexspline/data/estimate_json.hpp"
+#include "flexspline/data/model_toml.hpp"
 #include "run_folder.hpp"
 
 namespace flexspline::app {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// estimate.json, and its model as model.toml, which simulate reads.
+Result<void> write_estimate(const std::filesystem::path& folder, const ordered_json& estimate) {
+  const auto model = data::model_from_json(estimate.at("model"));
+  if (!model) return tl::unexpected(model.error());
+  const auto written = data::write_model(folder / "model.toml", *model);
+  if (!written) return written;
+  return data::write_artefact(folder / "estimate.json", estimate);
+}
 
 /// The estimate of a case with the errors in effort of every recording, train and hold-out.
 ordered_json estimate_of(const ordered_json& artefact) {
@@ -56,7 +67,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto artefact = data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
   if (!artefact) return tl::unexpected(artefact.error());
   const ordered_json estimate = estimate_of(*artefact);
-  const auto written = data::write_artefact(folder / "estimate.json", estimate);
+  const auto written = write_estimate(folder, estimate);
   if (!written) return tl::unexpected(written.error());
   console.result(console.json ? estimate.dump(2)
                               : summary_of(estimate) + "\n" + report.string());
@@ -67,7 +78,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_fit() {
   return {.id = "fit",
-          .summary = "One estimator on one data set: DIR/estimate.json and a report",
+          .summary = "One estimator on one data set: DIR/estimate.json, DIR/model.toml and a report",
           .arguments = {{.name = "dataset", .meaning = "folder of a data set", .value = "DATASET", .required = true},
                         {.name = "--estimator", .meaning = "method, see flexspline list estimators", .value = "ID", .required = true},
                         {.name = "--option", .meaning = "a setting of the method", .value = "NAME=VALUE", .repeats = true},

@@ -1,0 +1,162 @@
+#include <array>
+#include <cstdio>
+
+#include <sys/wait.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "study_file.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using testing::HasSubstr;
+
+struct Finished {
+  int code = -1;
+  std::string output;  ///< stdout, then stderr
+  std::string result;  ///< stdout alone
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    program_ = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "flexspline";
+    if (!exists(program_)) GTEST_SKIP() << program_ << " is not built";
+  }
+  Finished call(const std::string& arguments) const {
+    const std::string said = (folder_.path() / "stderr.txt").string();
+    const std::string line = program_.string() + " " + arguments + " 2>" + said;
+    Finished finished;
+    FILE* pipe = popen(line.c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (const std::size_t size = fread(buffer.data(), 1, buffer.size(), pipe)) {
+      finished.result.append(buffer.data(), size);
+    }
+    finished.code = WEXITSTATUS(pclose(pipe));
+    finished.output = finished.result + read_text(said);
+    return finished;
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  ScratchFolder folder_;
+  std::filesystem::path program_;
+  const std::string study_ = kHead +
+                             "[bench]\nangle_noise = { value = 0.1, unit = \"%\" }\n"
+                             "torque_noise_white = { value = 0.1, unit = \"%\" }\n"
+                             "cycles = 3\nsamples_per_cycle = 200\n" +
+                             kGrid + kInput + kEstimator;
+};
+
+TEST_F(CommandLine, VersionNamesCommitCompilerAndLibraries) {
+  const Finished done = call("--version");
+  EXPECT_EQ(done.code, 0);
+  for (const char* name : {"commit", "compiler", "Ipopt", "Ceres", "SUNDIALS", "Eigen"}) {
+    EXPECT_THAT(done.result, HasSubstr(name));
+  }
+}
+
+TEST_F(CommandLine, UsageErrorsExitWith2) {
+  EXPECT_EQ(call("").code, 2);
+  EXPECT_EQ(call("run").code, 2);
+  EXPECT_EQ(call("run a.toml --out x --frobnicate").code, 2);
+  EXPECT_EQ(call("list nothing").code, 2);
+  const Finished done = call("rnu a.toml");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_THAT(done.output, HasSubstr("did you mean 'run'?"));
+}
+
+TEST_F(CommandLine, RunPrintsThePathOfAReportThatIsThere) {
+  folder_.write("study.toml", study_);
+  const Finished done = call("run " + path("study.toml") + " --out " + path("out"));
+  EXPECT_EQ(done.code, 0) << done.output;
+  EXPECT_THAT(done.result, HasSubstr(path("out")));
+  EXPECT_TRUE(std::filesystem::exists(path("out/report/index.html")));
+  EXPECT_EQ(call("report " + path("out")).code, 0);
+}
+
+TEST_F(CommandLine, RunSaysAsJsonThatNothingWasRedone) {
+  folder_.write("study.toml", study_);
+  const std::string line = "run " + path("study.toml") + " --json --quiet --out " + path("out");
+  EXPECT_EQ(nlohmann::json::parse(call(line).result)["computed"], 1);
+  const auto again = nlohmann::json::parse(call(line).result);
+  EXPECT_EQ(again["computed"], 0);
+  EXPECT_EQ(again["reused"], 1);
+}
+
+TEST_F(CommandLine, PlanWritesNothing) {
+  folder_.write("study.toml", study_);
+  const Finished done = call("plan " + path("study.toml"));
+  EXPECT_EQ(done.code, 0);
+  EXPECT_THAT(done.result, HasSubstr("unity--paper--r0"));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(CommandLine, BadStudyExitsWith65AndSaysEverything) {
+  folder_.write("study.toml", kHead + "sed = 1\n" + kGrid + kInput + kEstimator + "trian = 1\n");
+  for (const char* command : {"validate ", "plan "}) {
+    const Finished done = call(command + path("study.toml"));
+    EXPECT_EQ(done.code, 65);
+    EXPECT_THAT(done.output, HasSubstr("study.toml:3:1"));
+    EXPECT_THAT(done.output, HasSubstr("did you mean 'train'?"));
+  }
+  EXPECT_EQ(call("run " + path("study.toml") + " --out " + path("out")).code, 65);
+  EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing half-written";
+}
+
+TEST_F(CommandLine, MissingInputExitsWith66) {
+  EXPECT_EQ(call("run " + path("none.toml") + " --out " + path("out")).code, 66);
+  EXPECT_EQ(call("report " + path("none")).code, 66);
+  EXPECT_EQ(call("fit " + path("none") + " --estimator midpoint_polynomial --out " + path("out")).code, 66);
+}
+
+TEST_F(CommandLine, FolderThatCannotBeWrittenExitsWith73AndIsNamed) {
+  folder_.write("study.toml", study_);
+  folder_.write("file", "");
+  const Finished done = call("run " + path("study.toml") + " --out " + path("file/out"));
+  EXPECT_EQ(done.code, 73);
+  EXPECT_THAT(done.output, HasSubstr(path("file/out")));
+}
+
+TEST_F(CommandLine, ListsEveryCatalogue) {
+  for (const char* name : {"effects", "laws", "rigs", "estimators", "kinds", "metrics", "truths"}) {
+    const Finished done = call(std::string("list --json ") + name);
+    EXPECT_EQ(done.code, 0) << name;
+    EXPECT_FALSE(nlohmann::json::parse(done.result).empty()) << name;
+  }
+}
+
+TEST_F(CommandLine, SchemaIsJsonAndKnowsEveryKeyOfThePaperStudy) {
+  const Finished done = call("schema study");
+  ASSERT_EQ(done.code, 0);
+  const auto schema = nlohmann::json::parse(done.result);
+  EXPECT_TRUE(schema["properties"].contains("estimator"));
+  EXPECT_EQ(call("schema studdy").code, 2);
+}
+
+TEST_F(CommandLine, SimulateWritesADataSetThatFits) {
+  // f = 10 x + 5 x^3 and g^-1 = 3 z, see the file.
+  folder_.write("model.toml", read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));
+  const Finished done = call("simulate " + path("model.toml") +
+                             " --excitation sine --amplitude 0.2deg --frequency 0.005Hz --out " + path("set"));
+  ASSERT_EQ(done.code, 0) << done.output;
+  EXPECT_EQ(call("validate " + path("set")).code, 0);
+  const Finished fit = call("fit " + path("set") + " --estimator midpoint_polynomial --json --out " + path("fit"));
+  ASSERT_EQ(fit.code, 0) << fit.output;
+  const auto estimate = nlohmann::json::parse(fit.result);
+  EXPECT_LT(estimate["rmse"]["train"]["sine"].get<double>(), 1e-3 * 15.0);
+  EXPECT_TRUE(std::filesystem::exists(path("fit/estimate.json")));
+}
+
+TEST_F(CommandLine, SimulateRefusesAnAmplitudeInTheWrongUnit) {
+  folder_.write("model.toml", read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));
+  const Finished done = call("simulate " + path("model.toml") +
+                             " --excitation sine --amplitude 0.2Nm --frequency 0.005Hz --out " + path("set"));
+  EXPECT_EQ(done.code, 2);
+  EXPECT_THAT(done.output, HasSubstr("unit of angle"));
+}
+
+}  // namespace
+}  // namespace flexspline::studies
