@@ -136,7 +136,7 @@ Result<void> write_dataset(const std::filesystem::path& folder, const RecordingS
   std::set<std::string> taken;
   for (const Recording& recording : set.recordings) {
     const std::string file = file_stem(recording.id, taken) + ".csv";
-    const auto written = write_file(folder / file, table_text(recording, *columns));
+    auto written = write_file(folder / file, table_text(recording, *columns));
     if (!written) return written;
     description += entry_text(recording, file, set.display);
   }
