@@ -44,7 +44,7 @@ TEST(Split, OfTwoTheSmallerIsHeldOut) {
 TEST(Split, AboutOneInThreeAndNeverTheExtremes) {
   for (std::size_t n = 3; n <= 30; ++n) {
     std::vector<double> ranges;
-    for (std::size_t i = 0; i < n; ++i) ranges.push_back(1.0 + static_cast<double>((i * 7) % n));
+    for (std::size_t i = 0; i < n; ++i) ranges.push_back(1.0 + static_cast<double>((i * 37) % n));
     auto list = records(ranges);
     split_recordings(list);
     const auto held = static_cast<double>(held_out(list).size());

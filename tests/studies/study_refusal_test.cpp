@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"no_estimator", kHead + kGrid + kInput, ":", "no estimator", "[[estimator]]"},
         Refusal{"fractional_seed", kHead + "seed = 1.5\n" + kGrid + kInput + kEstimator, ":3:8:",
                 "'seed' is not a whole number", ""}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& row) { return row.param.name; });
 
 TEST(StudyReading, SaysEverythingWrongAtOnceInOrder) {
   const ScratchFolder folder;
