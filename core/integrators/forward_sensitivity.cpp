@@ -1,5 +1,6 @@
 #include "flexspline/core/forward_sensitivity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -7,39 +8,51 @@
 #include <cvodes/cvodes.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <sundials/sundials_linearsolver.h>
 
 namespace flexspline {
 namespace {
 
+// The state and its sensitivities are one system, z = (y, dy/dp): z0' = F, zk' = dF/dy zk + dF/dpk.
+// Its Jacobian is dF/dy on the diagonal and, in its first column, second derivatives of F, which
+// only the speed of Newton's iteration needs and which are left out. So each step costs one
+// evaluation of the law and vector operations of one array, where CVODES' own forward mode passes
+// over an array of vectors of length one.
 struct Work {
   const ScalarOde* ode;
-  std::vector<double> parameter_derivative;
+  void* memory = nullptr;
+  double dfdy = 0.0;  // of the last evaluation
 };
 
-int rate(realtype t, N_Vector y, N_Vector ydot, void* data) {
-  const auto* work = static_cast<const Work*>(data);
-  NV_Ith_S(ydot, 0) = work->ode->rate(t, NV_Ith_S(y, 0));
-  return std::isfinite(NV_Ith_S(ydot, 0)) ? 0 : 1;
+int rate(realtype t, N_Vector z, N_Vector zdot, void* data) {
+  auto* work = static_cast<Work*>(data);
+  const std::size_t count = work->ode->parameters();
+  const double* state = N_VGetArrayPointer(z);
+  double* out = N_VGetArrayPointer(zdot);
+  out[0] = work->ode->rate(t, state[0]);
+  if (count == 0) {
+    work->dfdy = work->ode->jacobian(t, state[0]);
+  } else {
+    work->dfdy = work->ode->parameter_derivative(t, state[0], {out + 1, count});
+    for (std::size_t k = 1; k <= count; ++k) out[k] += work->dfdy * state[k];
+  }
+  return std::isfinite(out[0]) && std::isfinite(work->dfdy) ? 0 : 1;
 }
 
-int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector, N_Vector,
-             N_Vector) {
-  const auto* work = static_cast<const Work*>(data);
-  SM_ELEMENT_D(j, 0, 0) = work->ode->jacobian(t, NV_Ith_S(y, 0));
+SUNLinearSolver_Type solver_type(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
+
+// (1 - gamma dF/dy) x = b.
+int solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+  const auto* work = static_cast<const Work*>(solver->content);
+  realtype gamma = 0.0;
+  CVodeGetCurrentGamma(work->memory, &gamma);
+  N_VScale(1.0 / (1.0 - gamma * work->dfdy), b, x);
   return 0;
 }
 
-int sensitivity_rate(int count, realtype t, N_Vector y, N_Vector, N_Vector* s, N_Vector* sdot,
-                     void* data, N_Vector, N_Vector) {
-  auto* work = static_cast<Work*>(data);
-  const double dfdy =
-      work->ode->parameter_derivative(t, NV_Ith_S(y, 0), work->parameter_derivative);
-  for (int k = 0; k < count; ++k) {
-    NV_Ith_S(sdot[k], 0) =
-        dfdy * NV_Ith_S(s[k], 0) + work->parameter_derivative[static_cast<std::size_t>(k)];
-  }
+int free_solver(SUNLinearSolver solver) {
+  solver->content = nullptr;
+  SUNLinSolFreeEmpty(solver);
   return 0;
 }
 
@@ -48,72 +61,47 @@ class Integration {
  public:
   Integration(const ScalarOde& ode, double t0, double initial,
               std::span<const double> initial_sensitivity, const IntegratorSettings& settings)
-      : work_{&ode, std::vector<double>(ode.parameters())} {
+      : work_{&ode} {
     SUNContext_Create(nullptr, &context_);
-    state_ = N_VNew_Serial(1, context_);
-    NV_Ith_S(state_, 0) = initial;
-    matrix_ = SUNDenseMatrix(1, 1, context_);
-    solver_ = SUNLinSol_Dense(state_, matrix_, context_);
-    memory_ = CVodeCreate(CV_BDF, context_);
-    CVodeSetErrFile(memory_, nullptr);
-    CVodeInit(memory_, rate, t0, state_);
-    CVodeSStolerances(memory_, settings.relative_tolerance, settings.absolute_tolerance);
-    CVodeSetUserData(memory_, &work_);
-    CVodeSetLinearSolver(memory_, solver_, matrix_);
-    CVodeSetJacFn(memory_, jacobian);
-    CVodeSetMaxNumSteps(memory_, settings.max_steps);
-    if (ode.parameters() > 0) start_sensitivities(initial_sensitivity, settings);
+    state_ = N_VNew_Serial(static_cast<sunindextype>(1 + ode.parameters()), context_);
+    double* z = N_VGetArrayPointer(state_);
+    z[0] = initial;
+    std::ranges::copy(initial_sensitivity, z + 1);
+    work_.memory = CVodeCreate(CV_BDF, context_);
+    CVodeSetErrFile(work_.memory, nullptr);
+    CVodeInit(work_.memory, rate, t0, state_);
+    CVodeSStolerances(work_.memory, settings.relative_tolerance, settings.absolute_tolerance);
+    CVodeSetUserData(work_.memory, &work_);
+    solver_ = SUNLinSolNewEmpty(context_);
+    solver_->ops->gettype = solver_type;
+    solver_->ops->solve = solve;
+    solver_->ops->free = free_solver;
+    solver_->content = &work_;
+    CVodeSetLinearSolver(work_.memory, solver_, nullptr);
+    CVodeSetMaxNumSteps(work_.memory, settings.max_steps);
   }
   Integration(const Integration&) = delete;
   Integration& operator=(const Integration&) = delete;
 
   ~Integration() {
-    CVodeFree(&memory_);
-    if (sensitivity_ != nullptr) {
-      N_VDestroyVectorArray(sensitivity_, static_cast<int>(work_.ode->parameters()));
-    }
+    CVodeFree(&work_.memory);
     SUNLinSolFree(solver_);
-    SUNMatDestroy(matrix_);
     N_VDestroy(state_);
     SUNContext_Free(&context_);
   }
 
-  void stop_at(double t) { CVodeSetStopTime(memory_, t); }
-
-  int advance(double t) { return CVode(memory_, t, state_, &reached_, CV_NORMAL); }
-
-  double state() const { return NV_Ith_S(state_, 0); }
+  void stop_at(double t) { CVodeSetStopTime(work_.memory, t); }
+  int advance(double t) { return CVode(work_.memory, t, state_, &reached_, CV_NORMAL); }
   double reached() const { return reached_; }
-
-  void sensitivities(std::vector<double>& out) {
-    if (sensitivity_ == nullptr) return;
-    double at = 0.0;
-    CVodeGetSens(memory_, &at, sensitivity_);
-    for (std::size_t k = 0; k < work_.ode->parameters(); ++k) {
-      out.push_back(NV_Ith_S(sensitivity_[k], 0));
-    }
+  std::span<const double> values() const {
+    return {N_VGetArrayPointer(state_), 1 + work_.ode->parameters()};
   }
 
  private:
-  void start_sensitivities(std::span<const double> initial, const IntegratorSettings& settings) {
-    const int count = static_cast<int>(work_.ode->parameters());
-    sensitivity_ = N_VCloneVectorArray(count, state_);
-    for (int k = 0; k < count; ++k) {
-      NV_Ith_S(sensitivity_[k], 0) = initial[static_cast<std::size_t>(k)];
-    }
-    CVodeSensInit(memory_, count, CV_STAGGERED, sensitivity_rate, sensitivity_);
-    std::vector<double> absolute(static_cast<std::size_t>(count), settings.absolute_tolerance);
-    CVodeSensSStolerances(memory_, settings.relative_tolerance, absolute.data());
-    CVodeSetSensErrCon(memory_, SUNTRUE);
-  }
-
   Work work_;
   SUNContext context_ = nullptr;
   N_Vector state_ = nullptr;
-  N_Vector* sensitivity_ = nullptr;
-  SUNMatrix matrix_ = nullptr;
   SUNLinearSolver solver_ = nullptr;
-  void* memory_ = nullptr;
   double reached_ = 0.0;
 };
 
@@ -138,14 +126,15 @@ Result<SensitiveTrajectory> integrate(const ScalarOde& ode, std::span<const doub
   result.sensitivity.assign(initial_sensitivity.begin(), initial_sensitivity.end());
   for (std::size_t i = 1; i < times.size(); ++i) {
     const int flag = integration.advance(times[i]);
-    if (flag < 0 || !std::isfinite(integration.state())) {
+    const auto z = integration.values();
+    if (flag < 0 || !std::isfinite(z[0])) {
       return failure(ErrorCode::numerics,
                      fmt::format("the integration stopped at t = {:.6g} s with state {:.6g}: {}",
-                                 integration.reached(), integration.state(), reason(flag)),
+                                 integration.reached(), z[0], reason(flag)),
                      "loosen the tolerance, or look for parameters far from physical ones");
     }
-    result.state.push_back(integration.state());
-    integration.sensitivities(result.sensitivity);
+    result.state.push_back(z[0]);
+    result.sensitivity.insert(result.sensitivity.end(), z.begin() + 1, z.end());
   }
   return result;
 }

@@ -67,13 +67,18 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
                           .solve(rotated.head(used));
   const double noise = (y - columns.leftCols(used) * c).norm() / std::sqrt(static_cast<double>(n));
   const double error = noise * std::sqrt(2.0 / static_cast<double>(n));
+  Eigen::Index freedom = used;
   for (Eigen::Index k = 2; k <= order; ++k) {
-    if (std::hypot(c[2 * k - 1], c[2 * k]) < kSignificance * error) c.segment(2 * k - 1, 2).setZero();
+    if (std::hypot(c[2 * k - 1], c[2 * k]) >= kSignificance * error) continue;
+    c.segment(2 * k - 1, 2).setZero();
+    freedom -= 2;
   }
 
   const auto size = static_cast<std::size_t>(n);
-  SmoothSignal signal{std::vector<double>(size), std::vector<double>(size),
-                      std::vector<double>(size), noise};
+  const std::vector<double> empty(size);
+  const double share = static_cast<double>(freedom) / static_cast<double>(n);
+  SmoothSignal signal{empty, empty, empty, noise,
+                      std::vector<double>(size, noise * std::sqrt(share))};
   for (std::size_t i = 0; i < size; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     signal.value[i] = c[0];

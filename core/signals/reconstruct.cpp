@@ -33,7 +33,7 @@ SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples
   const auto transient = std::max<std::size_t>(
       16, static_cast<std::size_t>(overlap_end - time.begin()));
   auto signal = smooth_by_spline(time.first(transient), samples.first(transient));
-  for (auto* part : {&signal.value, &signal.rate, &signal.second}) part->resize(time.size());
+  for (auto* part : {&signal.value, &signal.rate, &signal.second, &signal.error}) part->resize(time.size());
   signal.noise = periodic.noise;
   for (std::size_t i = steady->first; i < time.size(); ++i) {
     const std::size_t j = i - steady->first;
@@ -42,6 +42,7 @@ SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples
     blend(signal.value, periodic.value, i, j, weight);
     blend(signal.rate, periodic.rate, i, j, weight);
     blend(signal.second, periodic.second, i, j, weight);
+    blend(signal.error, periodic.error, i, j, weight);
   }
   return signal;
 }
@@ -68,6 +69,7 @@ Result<Reconstruction> reconstruct(const TorsionRecord& record) {
                    .velocity = std::move(motion.rate),
                    .acceleration = std::move(motion.second)};
   result.motion_noise = motion.noise;
+  result.motion_error = std::move(motion.error);
   result.effort = std::move(effort.value);
   result.effort_noise = effort.noise;
   return result;

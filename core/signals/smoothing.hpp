@@ -12,6 +12,7 @@ struct SmoothSignal {
   std::vector<double> rate;
   std::vector<double> second;
   double noise = 0.0;  ///< standard deviation of sample minus value
+  std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
 };
 
 /// Penalised cubic spline (Eilers and Marx 1996, third differences), the penalty by generalised

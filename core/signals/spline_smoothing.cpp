@@ -44,6 +44,7 @@ Sparse third_differences(int size) {
 struct Penalised {
   Eigen::VectorXd coefficients;
   double score = 0.0;
+  double freedom = 0.0;
 };
 
 // Generalised cross-validation score of one penalty; the trace by random signs (Hutchinson).
@@ -55,9 +56,9 @@ Penalised penalised_fit(const Sparse& basis, const Sparse& normal, const Sparse&
   Penalised fit;
   fit.coefficients = solver.solve(basis.transpose() * samples);
   const Eigen::MatrixXd smoothed = basis * solver.solve(basis.transpose() * probes).eval();
-  const double freedom = (probes.cwiseProduct(smoothed)).sum() / static_cast<double>(probes.cols());
+  fit.freedom = (probes.cwiseProduct(smoothed)).sum() / static_cast<double>(probes.cols());
   const double n = static_cast<double>(samples.size());
-  const double left = std::max(n - freedom, 1.0);
+  const double left = std::max(n - fit.freedom, 1.0);
   fit.score = (samples - basis * fit.coefficients).squaredNorm() * n / (left * left);
   return fit;
 }
@@ -103,6 +104,7 @@ SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const doub
     sum += (samples[i] - signal.value[i]) * (samples[i] - signal.value[i]);
   }
   signal.noise = std::sqrt(sum / static_cast<double>(n));
+  signal.error.assign(n, signal.noise * std::sqrt(best.freedom / static_cast<double>(n)));
   return signal;
 }
 

@@ -9,7 +9,6 @@
 #include "torsion/torsion_residuals.hpp"
 #include "uncertainty/bands.hpp"
 #include "uncertainty/covariance.hpp"
-#include "uncertainty/input_noise.hpp"
 
 namespace flexspline::estimators {
 
@@ -18,6 +17,7 @@ MethodRow describe_trajectory_ceres();
 namespace {
 
 constexpr double kNormal95 = 1.959963984540054;
+constexpr double kMaterial = 3.0;  // standard deviations from zero of a term that is kept
 
 enum class Direction { torsion, torque };
 
@@ -49,32 +49,72 @@ struct Fit {
   Direction direction;
 };
 
-Result<Eigen::MatrixXd> covariance_of(const Fit& fit, const std::vector<PreparedRecord>& records,
-                                      const LeastSquaresProblem& problem,
-                                      const TorsionResiduals* driven) {
-  Eigen::MatrixXd middle = score_covariance(problem, fit.linear);
-  if (driven != nullptr) {
-    const auto input = input_noise_covariance(*driven, records, fit.linear, fit.solution.p);
-    if (!input) return tl::unexpected(input.error());
-    middle += *input;
+// Effort follows motion: the noise of the motion is part of its residual's, by the slope of the law.
+Result<void> add_motion_noise(std::vector<PreparedRecord>& records, const LinearStart& at) {
+  const TorqueResiduals problem(at.layout, records);
+  for (std::size_t b = 0; b < records.size(); ++b) {
+    const auto slopes = problem.motion_slope(b, at.p);
+    if (!slopes) return tl::unexpected(slopes.error());
+    for (std::size_t r = 0; r < slopes->size(); ++r) {
+      records[b].effort_sigma[r] =
+          std::hypot(records[b].effort_noise, (*slopes)[r] * records[b].motion_sigma);
+    }
   }
-  return sandwich(fit.linear.jacobian, middle, fit.solution.bound_active);
+  return {};
 }
 
-Result<Fit> fit_torque(LinearStart start, const std::vector<PreparedRecord>& records,
-                       const SolverSettings& settings) {
-  const TorqueResiduals problem(start.layout, records);
+// The residuals have unit variance if the noises are what they were measured to be; where more is
+// left, by colour or by what the model lacks, the covariance grows with it.
+Eigen::MatrixXd covariance_of(const std::vector<PreparedRecord>& records, const Linearisation& at,
+                              const std::vector<bool>& bound_active) {
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(at.jacobian.cols(), at.jacobian.cols());
+  Eigen::Index row = 0;
+  for (const auto& one : records) {
+    const auto height = static_cast<Eigen::Index>(one.rows.size());
+    const Eigen::MatrixXd j = at.jacobian.middleRows(row, height);
+    const Eigen::VectorXd r = at.residual.segment(row, height);
+    const std::span<const double> series(r.data(), static_cast<std::size_t>(height));
+    const double left = r.squaredNorm() / static_cast<double>(height) * long_run_ratio(series);
+    middle += std::max(1.0, left) * j.transpose() * j;
+    row += height;
+  }
+  return sandwich(at.jacobian, middle, bound_active);
+}
+
+Result<Fit> minimised(const LeastSquaresProblem& problem, LinearStart start,
+                      const std::vector<PreparedRecord>& records, const SolverSettings& settings,
+                      Direction direction) {
   const auto bounds = bounded_parameters(start.layout, records, start.p);
   auto solution = minimise(problem, bounds, settings);
   if (!solution) return tl::unexpected(solution.error());
   auto linear = linearise(problem, solution->p);
   if (!linear) return tl::unexpected(linear.error());
-  Fit fit{std::move(start), std::move(*solution), {}, std::move(*linear), Direction::torque};
+  Fit fit{std::move(start), std::move(*solution), {}, std::move(*linear), direction};
   fit.at.p = fit.solution.p;
-  auto covariance = covariance_of(fit, records, problem, nullptr);
-  if (!covariance) return tl::unexpected(covariance.error());
-  fit.covariance = std::move(*covariance);
+  fit.covariance = covariance_of(records, fit.linear, fit.solution.bound_active);
   return fit;
+}
+
+Result<Fit> fit_torque(const LinearStart& start, const std::vector<PreparedRecord>& records,
+                       const SolverSettings& settings) {
+  const TorqueResiduals problem(start.layout, records);
+  return minimised(problem, start, records, settings, Direction::torque);
+}
+
+// Offset, inertia and delay that lie within three standard deviations of zero are left out: kept,
+// they would only pass their uncertainty on to g^-1.
+FreeTerms significant_terms(const Fit& fit) {
+  const TorsionLayout& layout = fit.at.layout;
+  auto keep = [&](const Group& group) {
+    if (!group.present()) return false;
+    const auto k = static_cast<Eigen::Index>(group.first);
+    return std::abs(fit.solution.p[group.first]) > kMaterial * std::sqrt(fit.covariance(k, k));
+  };
+  FreeTerms free = layout.free_terms();
+  free.offset = keep(layout.offset_group);
+  free.inertia = keep(layout.inertia_group);
+  free.delay = keep(layout.delay_group);
+  return free;
 }
 
 Result<Fit> fit_torsion(const Fit& from, const std::vector<PreparedRecord>& records,
@@ -85,18 +125,9 @@ Result<Fit> fit_torsion(const Fit& from, const std::vector<PreparedRecord>& reco
   for (std::size_t k = 0; k < records.size(); ++k) {
     start.p[start.layout.initial_group.first + k] = records[k].smooth.motion.position.front();
   }
-  const TorsionResiduals problem(start.layout, records, integrator);
-  const auto bounds = bounded_parameters(start.layout, records, start.p);
-  auto solution = minimise(problem, bounds, settings);
-  if (!solution) return tl::unexpected(solution.error());
-  auto linear = linearise(problem, solution->p);
-  if (!linear) return tl::unexpected(linear.error());
-  Fit fit{std::move(start), std::move(*solution), {}, std::move(*linear), Direction::torsion};
-  fit.at.p = fit.solution.p;
-  auto covariance = covariance_of(fit, records, problem, &problem);
-  if (!covariance) return tl::unexpected(covariance.error());
-  fit.covariance = std::move(*covariance);
-  return fit;
+  TorsionResiduals problem(start.layout, records, integrator);
+  if (auto weighed = problem.weigh(start.p); !weighed) return tl::unexpected(weighed.error());
+  return minimised(problem, start, records, settings, Direction::torsion);
 }
 
 std::vector<ParameterEstimate> parameters_of(const Fit& fit, bool angular) {
@@ -118,16 +149,14 @@ std::vector<ParameterEstimate> parameters_of(const Fit& fit, bool angular) {
   return list;
 }
 
+// Root mean square of the weighted residuals: 1 where nothing but noise is left.
 std::vector<RecordingFit> fits_of(const Fit& fit, const std::vector<PreparedRecord>& records) {
   std::vector<RecordingFit> list;
   Eigen::Index row = 0;
   for (const auto& one : records) {
     const auto height = static_cast<Eigen::Index>(one.rows.size());
-    const double sigma =
-        fit.direction == Direction::torsion ? one.motion_sigma : one.effort_sigma;
     const double norm = fit.linear.residual.segment(row, height).norm();
-    list.push_back({one.record.id, Split::train,
-                    sigma * norm / std::sqrt(static_cast<double>(height))});
+    list.push_back({one.record.id, Split::train, norm / std::sqrt(static_cast<double>(height))});
     row += height;
   }
   return list;
@@ -143,8 +172,10 @@ Estimate estimate_of(const Fit& fit, const std::vector<PreparedRecord>& records,
   estimate.termination = fit.solution.termination;
   estimate.cost = fit.solution.cost;
   estimate.residual = fit.direction == Direction::torsion
-                          ? "torsion, eq. (3) integrated from the measured torque, over its noise"
-                          : "torque, eq. (4) along the measured motion, over its noise";
+                          ? "torsion: innovations of eq. (3) integrated from the measured torque, in "
+                            "standard deviations of their noise"
+                          : "torque: eq. (4) along the measured motion, in standard deviations of "
+                            "its noise";
   estimate.fits = fits_of(fit, records);
   estimate.identifiability = {decision.condition, decision.absorbed, decision.verdict,
                               decision.says};
@@ -163,7 +194,7 @@ Result<Estimate> fit(const FitProblem& problem) {
     return failure(ErrorCode::bad_data, "there is no recording to train on",
                    "mark one with split = \"train\"");
   }
-  const auto records =
+  auto records =
       prepare(problem.records, static_cast<std::size_t>(number(problem, method, "samples")));
   if (!records) return tl::unexpected(records.error());
   const bool travels = records->front().record.travels;
@@ -173,12 +204,18 @@ Result<Estimate> fit(const FitProblem& problem) {
   const FreeTerms base = base_terms(*records);
   const auto start = linear_start(*records, base);
   if (!start) return tl::unexpected(start.error());
+  if (auto added = add_motion_noise(*records, *start); !added) {
+    return tl::unexpected(added.error());
+  }
   const auto decision = decide_terms(*start, *records, base, allowed);
   if (!decision) return tl::unexpected(decision.error());
 
   const SolverSettings settings{
       .max_iterations = static_cast<int>(number(problem, method, "iterations"))};
   auto result = fit_torque(with_terms(*start, decision->free), *records, settings);
+  if (result) {
+    result = fit_torque(with_terms(result->at, significant_terms(*result)), *records, settings);
+  }
   if (result && direction_of(problem, method, *records) == Direction::torsion) {
     const double tolerance = number(problem, method, "tolerance");
     result = fit_torsion(*result, *records, settings, {tolerance, tolerance, 200000});

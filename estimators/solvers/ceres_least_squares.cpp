@@ -11,6 +11,7 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kAtBound = 1e-6;  // distance from a bound, in scales, that counts as on it
+constexpr int kRounds = 4;         // of letting go of bounds
 
 // What the blocks tell beside their values: how often they ran, and why one last failed.
 struct Log {
@@ -72,21 +73,45 @@ ceres::Solver::Options solver_options(const SolverSettings& settings) {
   options.parameter_tolerance = settings.parameter_tolerance;
   options.gradient_tolerance = 1e-14;
   options.num_threads = settings.threads;
+  options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
   return options;
 }
 
-}  // namespace
-
-Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
-                                      std::span<const BoundedParameter> parameters,
-                                      const SolverSettings& settings) {
-  std::vector<double> x(parameters.size());
+// Gradient J'r in the solver's scaled parameters; also counts as the first evaluation.
+Result<std::vector<double>> scaled_gradient(const LeastSquaresProblem& problem,
+                                            std::span<const BoundedParameter> parameters,
+                                            const std::vector<double>& x) {
+  std::vector<double> p(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) p[k] = x[k] * parameters[k].scale;
+  const auto at = linearise(problem, p);
+  if (!at) return tl::unexpected(at.error());
+  const Eigen::VectorXd gradient = at->jacobian.transpose() * at->residual;
+  std::vector<double> result(x.size());
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const auto& parameter = parameters[k];
-    x[k] = std::clamp(parameter.start, parameter.lower, parameter.upper) / parameter.scale;
+    result[k] = gradient[static_cast<Eigen::Index>(k)] * parameters[k].scale;
   }
-  Log log;
+  return result;
+}
+
+// Parameters on a bound that the gradient pushes against it.
+std::vector<int> held_on_bounds(std::span<const BoundedParameter> parameters,
+                                const std::vector<double>& x, const std::vector<double>& gradient) {
+  std::vector<int> held;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const bool low = x[k] - parameters[k].lower / parameters[k].scale < kAtBound;
+    const bool high = parameters[k].upper / parameters[k].scale - x[k] < kAtBound;
+    if ((low && gradient[k] > 0.0) || (high && gradient[k] < 0.0)) {
+      held.push_back(static_cast<int>(k));
+    }
+  }
+  return held;
+}
+
+ceres::Solver::Summary solve_holding(const LeastSquaresProblem& problem,
+                                     std::span<const BoundedParameter> parameters,
+                                     const std::vector<int>& held, const SolverSettings& settings,
+                                     std::vector<double>& x, Log& log) {
   ceres::Problem ceres_problem;
   for (std::size_t b = 0; b < problem.blocks(); ++b) {
     ceres_problem.AddResidualBlock(new Block(problem, b, parameters, log), nullptr, x.data());
@@ -101,18 +126,47 @@ Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
       ceres_problem.SetParameterUpperBound(x.data(), index, parameter.upper / parameter.scale);
     }
   }
+  if (!held.empty()) {
+    ceres_problem.SetManifold(x.data(),
+                              new ceres::SubsetManifold(static_cast<int>(x.size()), held));
+  }
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(settings), &ceres_problem, &summary);
-  if (summary.termination_type == ceres::FAILURE) {
-    return failure(ErrorCode::numerics,
-                   "the fit could not go on: " +
-                       (log.last_failure.empty() ? summary.message : log.last_failure),
-                   "start nearer, or leave the recording out");
+  return summary;
+}
+
+}  // namespace
+
+// Ceres projects onto bounds, which zigzags along those that are active; so what the start holds on
+// a bound is held there, and let go where the gradient then says so.
+Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
+                                      std::span<const BoundedParameter> parameters,
+                                      const SolverSettings& settings) {
+  std::vector<double> x(parameters.size());
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const auto& parameter = parameters[k];
+    x[k] = std::clamp(parameter.start, parameter.lower, parameter.upper) / parameter.scale;
   }
+  Log log;
   LeastSquaresSolution solution;
-  solution.termination = termination_of(summary);
-  solution.cost = summary.final_cost;
-  solution.iterations = static_cast<int>(summary.iterations.size());
+  std::vector<int> held;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto gradient = scaled_gradient(problem, parameters, x);
+    if (!gradient) return tl::unexpected(in_context(gradient.error(), "the start of the fit"));
+    auto now_held = held_on_bounds(parameters, x, *gradient);
+    if (round > 0 && now_held == held) break;
+    held = std::move(now_held);
+    const auto summary = solve_holding(problem, parameters, held, settings, x, log);
+    if (summary.termination_type == ceres::FAILURE) {
+      return failure(ErrorCode::numerics,
+                     "the fit could not go on: " +
+                         (log.last_failure.empty() ? summary.message : log.last_failure),
+                     "start nearer, or leave the recording out");
+    }
+    solution.termination = termination_of(summary);
+    solution.cost = summary.final_cost;
+    solution.iterations += static_cast<int>(summary.iterations.size());
+  }
   solution.evaluations = log.evaluations;
   for (std::size_t k = 0; k < x.size(); ++k) {
     const auto& parameter = parameters[k];

@@ -51,14 +51,17 @@ Result<std::vector<PreparedRecord>> prepare(const std::vector<TorsionRecord>& re
     const double quantisation = encoder_step(record.motion) / std::sqrt(12.0);
     const double range = *std::ranges::max_element(m.position) - *std::ranges::min_element(m.position);
     one.motion_sigma = std::max({smooth->motion_noise, quantisation, 1e-6 * range});
-    one.effort_sigma = smooth->effort_noise;
+    one.effort_noise = smooth->effort_noise;
     prepared.push_back(std::move(one));
   }
   double peak = 0.0;
   for (const auto& one : prepared) {
     for (double y : one.smooth.effort) peak = std::max(peak, std::abs(y));
   }
-  for (auto& one : prepared) one.effort_sigma = std::max(one.effort_sigma, 1e-6 * peak);
+  for (auto& one : prepared) {
+    one.effort_noise = std::max(one.effort_noise, 1e-6 * peak);
+    one.effort_sigma.assign(one.rows.size(), one.effort_noise);
+  }
   return prepared;
 }
 

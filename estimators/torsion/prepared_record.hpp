@@ -15,7 +15,8 @@ struct PreparedRecord {
   Spline position, velocity, acceleration, effort;
   std::vector<std::size_t> rows;  ///< valid samples, thinned evenly where there are very many
   double motion_sigma = 0.0;      ///< of measured motion, never below a step of its encoder
-  double effort_sigma = 0.0;
+  double effort_noise = 0.0;      ///< of measured effort
+  std::vector<double> effort_sigma{};  ///< a row: noise of effort and of the motion it follows
 };
 
 /// Errors: numerics, where a record cannot be reconstructed.

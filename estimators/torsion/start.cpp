@@ -22,10 +22,27 @@ const std::vector<double> kMotionKnots = {0.25, 0.5, 0.75};
 const std::vector<std::vector<double>> kVelocityKnots = {
     {0.08, 0.2, 0.4, 0.7}, {0.004, 0.012, 0.035, 0.1, 0.3, 0.6}};
 
-LawSpec motion_law(const Ranges& ranges, bool travels, std::size_t& size) {
+// One choice among the classes of f and g^-1.
+struct Candidate {
+  std::size_t f_sides;
+  std::size_t g_sides;
+  const std::vector<double>* velocity_knots;
+};
+
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> list;
+  for (const auto& knots : kVelocityKnots) {
+    for (std::size_t f_sides : {1, 2}) {
+      for (std::size_t g_sides : {1, 2}) list.push_back({f_sides, g_sides, &knots});
+    }
+  }
+  return list;
+}
+
+LawSpec motion_law(const Ranges& ranges, bool travels, std::size_t sides, std::size_t& size) {
   const double scale = ranges.motion * kMotionMargin;
   if (!travels) {
-    size = 2 * (kMotionKnots.size() + 3);
+    size = sides * (kMotionKnots.size() + 3);
     return {.law = "monotone_spline", .scale = scale, .knots = kMotionKnots, .coefficients = {},
             .valid_to = ranges.motion};
   }
@@ -38,10 +55,11 @@ LawSpec motion_law(const Ranges& ranges, bool travels, std::size_t& size) {
 }
 
 TorsionLayout layout_for(const std::vector<PreparedRecord>& records, const Ranges& ranges,
-                         const std::vector<double>& velocity_knots, FreeTerms free) {
+                         const Candidate& candidate, FreeTerms free) {
   const bool travels = records.front().record.travels;
   std::size_t f_size = 0;
-  LawSpec f = motion_law(ranges, travels, f_size);
+  LawSpec f = motion_law(ranges, travels, candidate.f_sides, f_size);
+  const std::vector<double>& velocity_knots = *candidate.velocity_knots;
   const LawSpec g{.law = "monotone_spline",
                   .scale = ranges.velocity * kVelocityMargin,
                   .knots = velocity_knots,
@@ -50,7 +68,8 @@ TorsionLayout layout_for(const std::vector<PreparedRecord>& records, const Range
   std::vector<std::string> ids;
   for (const auto& one : records) ids.push_back(one.record.id);
   const double h_scale = ranges.motion * kMotionMargin;
-  return TorsionLayout(std::move(f), f_size, g, 2 * (velocity_knots.size() + 3), h_scale,
+  return TorsionLayout(std::move(f), f_size, g,
+                       candidate.g_sides * (velocity_knots.size() + 3), h_scale,
                        kModulationTerms, std::move(ids), free);
 }
 
@@ -137,8 +156,9 @@ Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, Fre
   const Ranges ranges = ranges_of(records, free.zeros);
   std::optional<LinearStart> best;
   double criterion = kInfinity;
-  for (const auto& knots : kVelocityKnots) {
-    TorsionLayout layout = layout_for(records, ranges, knots, free);
+  for (const auto& candidate : candidates()) {
+    if (records.front().record.travels && candidate.f_sides == 2) continue;
+    TorsionLayout layout = layout_for(records, ranges, candidate, free);
     auto fit = linear_fit(layout, records);
     if (!fit) return tl::unexpected(fit.error());
     if (!best || fit->criterion < criterion) {

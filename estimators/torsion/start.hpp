@@ -12,9 +12,9 @@ std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
                                                  const std::vector<PreparedRecord>& records,
                                                  std::span<const double> p);
 
-/// Laws for these records: f monotone on both sides (or free where the motion travels), g^-1
-/// monotone, with the knots of the candidate that the Bayesian criterion prefers; and where the
-/// linear least squares of eq. (4) with h = 1 puts them.
+/// Laws for these records: f and g^-1 monotone (f free where the motion travels), each odd or with
+/// two sides of its own, g^-1 with knots in even steps or in decades, as the Bayesian criterion
+/// prefers; and where the linear least squares of eq. (4) with h = 1 puts them.
 struct LinearStart {
   TorsionLayout layout;
   std::vector<double> p;

@@ -26,7 +26,7 @@ Result<void> TorqueResiduals::evaluate(std::size_t block, std::span<const double
     const double a = one.acceleration.value(t);
     const double modulation = (*h)->value(x);
     const double w = v / modulation;
-    const double weight = 1.0 / one.effort_sigma;
+    const double weight = 1.0 / one.effort_sigma[r];
     const double simulated =
         (*f)->value(x) + (*g_inverse)->value(w) + inertia * a + layout_.offset(p);
     residual[r] = (simulated - one.record.effort[one.rows[r]]) * weight;
@@ -56,6 +56,26 @@ Result<void> TorqueResiduals::evaluate(std::size_t block, std::span<const double
     for (double& entry : row) entry *= weight;
   }
   return {};
+}
+
+Result<std::vector<double>> TorqueResiduals::motion_slope(std::size_t block,
+                                                          std::span<const double> p) const {
+  const auto f = make_law(layout_.f(p));
+  const auto g_inverse = make_law(layout_.g_inverse(p));
+  const auto h = make_law(layout_.h(p));
+  for (const auto* law : {&f, &g_inverse, &h}) {
+    if (!*law) return tl::unexpected((*law).error());
+  }
+  const PreparedRecord& one = records_[block];
+  std::vector<double> slopes;
+  for (std::size_t row : one.rows) {
+    const double x = one.smooth.motion.position[row] - layout_.zero(block, p);
+    const double modulation = (*h)->value(x);
+    const double w = one.smooth.motion.velocity[row] / modulation;
+    slopes.push_back((*f)->slope(x) -
+                     (*g_inverse)->slope(w) * w * (*h)->slope(x) / modulation);
+  }
+  return slopes;
 }
 
 }  // namespace flexspline::estimators

@@ -18,6 +18,8 @@ class TorqueResiduals final : public LeastSquaresProblem {
   std::size_t residuals(std::size_t block) const override { return records_[block].rows.size(); }
   Result<void> evaluate(std::size_t block, std::span<const double> p, std::span<double> residual,
                         std::span<double> jacobian) const override;
+  /// d tau / d phi of the model at the rows of a record, Nm/rad: how noise of the motion enters.
+  Result<std::vector<double>> motion_slope(std::size_t block, std::span<const double> p) const;
 
  private:
   const TorsionLayout& layout_;

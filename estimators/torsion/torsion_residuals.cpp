@@ -38,10 +38,14 @@ class TorqueDriven final : public ScalarOde {
     return h_.slope(phi) * v - h_.value(phi) * f_.slope(phi) / g_inverse_.slope(v);
   }
 
-  // dF/dtau in rad/s per Nm.
-  double gain(double t, double x) const {
+  // dF/dtau in rad/s per Nm and dF/dphi in 1/s where the torsion moves at this rate.
+  double gain(double x, double rate) const {
+    const double modulation = h_.value(x * scale_);
+    return modulation / g_inverse_.slope(rate / modulation);
+  }
+  double decay(double x, double rate) const {
     const double phi = x * scale_;
-    return h_.value(phi) / g_inverse_.slope(speed(t, phi));
+    return h_.slope(phi) * rate / h_.value(phi) - gain(x, rate) * f_.slope(phi);
   }
 
   double parameter_derivative(double t, double x, std::span<double> out) const override {
@@ -128,37 +132,39 @@ Result<void> TorsionResiduals::evaluate(std::size_t block, std::span<const doubl
   const auto trajectory = integrate(ode, one.record.time, initial, start, settings_);
   if (!trajectory) return tl::unexpected(in_context(trajectory.error(), one.record.id));
 
-  const double weight = 1.0 / one.motion_sigma;
   for (std::size_t r = 0; r < one.rows.size(); ++r) {
     const std::size_t i = one.rows[r];
-    residual[r] = (trajectory->state[i] * scale + zero - one.record.motion[i]) * weight;
+    residual[r] = trajectory->state[i] * scale + zero - one.smooth.motion.position[i];
     if (!sensitive) continue;
     const auto row = jacobian.subspan(r * layout_.size(), layout_.size());
     for (std::size_t k = 0; k < layout_.size(); ++k) {
-      row[k] = trajectory->sensitivity[i * layout_.size() + k] * scale * weight;
+      row[k] = trajectory->sensitivity[i * layout_.size() + k] * scale;
     }
-    if (layout_.zero_group.present()) row[layout_.zero_group.first + block] += weight;
+    if (layout_.zero_group.present()) row[layout_.zero_group.first + block] += 1.0;
   }
+  filters_[block].whiten(residual, jacobian, layout_.size());
   return {};
 }
 
-Result<TorsionResiduals::InputResponse> TorsionResiduals::input_response(
-    std::size_t block, std::span<const double> p) const {
-  const PreparedRecord& one = records_[block];
-  const auto laws = laws_at(layout_, p);
-  if (!laws) return tl::unexpected(laws.error());
-  const TorqueDriven ode(layout_, one, p, false, *laws->f, *laws->h);
-  const double scale = laws->f->spec().scale;
-  const double zero = layout_.zero(block, p);
-  const double initial = (initial_torsion(layout_, one, block, p) - zero) / scale;
-  const auto trajectory = integrate(ode, one.record.time, initial, {}, settings_);
-  if (!trajectory) return tl::unexpected(in_context(trajectory.error(), one.record.id));
-  InputResponse response;
-  for (std::size_t i = 0; i < one.record.time.size(); ++i) {
-    response.decay.push_back(ode.jacobian(one.record.time[i], trajectory->state[i]));
-    response.gain.push_back(ode.gain(one.record.time[i], trajectory->state[i]));
+Result<void> TorsionResiduals::weigh(std::span<const double> p) {
+  filters_.clear();
+  for (std::size_t block = 0; block < records_.size(); ++block) {
+    const PreparedRecord& one = records_[block];
+    const auto laws = laws_at(layout_, p);
+    if (!laws) return tl::unexpected(laws.error());
+    const TorqueDriven ode(layout_, one, p, false, *laws->f, *laws->h);
+    // Along the measured motion, so that a start that is still off does not misplace the weights.
+    std::vector<double> decay;
+    std::vector<double> gain;
+    for (std::size_t i = 0; i < one.record.time.size(); ++i) {
+      const double x = (one.smooth.motion.position[i] - layout_.zero(block, p)) /
+                       laws->f->spec().scale;
+      decay.push_back(ode.decay(x, one.smooth.motion.velocity[i]));
+      gain.push_back(ode.gain(x, one.smooth.motion.velocity[i]));
+    }
+    filters_.emplace_back(one, decay, gain);
   }
-  return response;
+  return {};
 }
 
 }  // namespace flexspline::estimators

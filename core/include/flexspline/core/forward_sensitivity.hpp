@@ -28,8 +28,8 @@ struct SensitiveTrajectory {
   std::vector<double> sensitivity;
 };
 
-/// Integrates by CVODES: BDF with dense Newton, forward sensitivities by the staggered corrector
-/// under error control, from y(times[0]) = initial with dy/dp = initial_sensitivity there.
+/// Integrates y and dy/dp as one system by CVODES: BDF, modified Newton, both under error control,
+/// from y(times[0]) = initial with dy/dp = initial_sensitivity there.
 /// Errors: numerics, with the time and state reached and what CVODES says.
 Result<SensitiveTrajectory> integrate(const ScalarOde& ode, std::span<const double> times,
                                       double initial, std::span<const double> initial_sensitivity,

@@ -45,6 +45,7 @@ struct Reconstruction {
   std::optional<SteadyPart> steady;
   double motion_noise = 0.0;    ///< standard deviation of measured minus reconstructed
   double effort_noise = 0.0;
+  std::vector<double> motion_error;  ///< standard error of the reconstructed position
 };
 
 /// Errors: numerics when fewer than 16 samples or a constant motion leave nothing to reconstruct.
