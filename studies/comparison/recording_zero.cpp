@@ -43,20 +43,17 @@ double golden_section(const Function& value, double low, double high) {
   return 0.5 * (low + high);
 }
 
-double search_zero(const ModelSpec& model, const Motion& motion, const ComparedSeries& series,
-                   double centre) {
+double search_zero(const ModelSpec& model, const Motion& motion, const ComparedSeries& series) {
   const auto [low, high] = std::ranges::minmax(motion.position);
-  const double reach = 0.25 * (high - low);
-  constexpr int kSteps = 10;
-  const double step = reach / kSteps;
-  double best = centre;
+  constexpr int kSteps = 40;
+  const double step = (high - low) / kSteps;
+  double best = low;
   double smallest = std::numeric_limits<double>::infinity();
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    const double zero = centre + step * i;
-    const double value = misfit(model, motion, series, zero);
+  for (int i = 0; i <= kSteps; ++i) {
+    const double value = misfit(model, motion, series, low + step * i);
     if (value >= smallest) continue;
     smallest = value;
-    best = zero;
+    best = low + step * i;
   }
   const auto value = [&](double zero) { return misfit(model, motion, series, zero); };
   return golden_section(value, best - step, best + step);
@@ -66,16 +63,13 @@ double search_zero(const ModelSpec& model, const Motion& motion, const ComparedS
 
 Result<double> recording_zero(const Estimate& estimate, const std::string& id, const Motion& motion,
                               const ComparedSeries& series) {
-  double sum = 0.0;
-  int count = 0;
+  bool each_has_one = false;
   for (const ParameterEstimate& parameter : estimate.parameters) {
     if (!parameter.name.starts_with(kPrefix)) continue;
     if (parameter.name == std::string(kPrefix) + id + "]") return parameter.value;
-    sum += parameter.value;
-    ++count;
+    each_has_one = true;
   }
-  if (count == 0) return 0.0;
-  return search_zero(estimate.model, motion, series, sum / count);
+  return each_has_one ? search_zero(estimate.model, motion, series) : 0.0;
 }
 
 }  // namespace flexspline::studies

@@ -11,7 +11,7 @@ namespace flexspline::studies {
 /// Where a recording's motion has its zero, rad (m): 0 unless the estimate has a parameter
 /// zero[<id>] for each training recording; then that recording's own, or for a recording that was
 /// not trained on the zero of least squared error between measured and simulated effort, sought
-/// within a quarter of the motion's range about the mean of the trained zeros.
+/// over that recording's own range of motion.
 Result<double> recording_zero(const Estimate& estimate, const std::string& id, const Motion& motion,
                               const ComparedSeries& series);
 
