@@ -23,7 +23,8 @@ bool checksum_holds(const std::string& artefact) {
   const auto stated = content["sha256"];
   content.erase("sha256");
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-  return stated.is_string() && stated.get<std::string>() == sha256_of(content.dump(-1, ' ', false, replace));
+  return stated.is_string() &&
+         stated.get<std::string>() == sha256_of(content.dump(-1, ' ', false, replace));
 }
 
 }  // namespace flexspline::reports

@@ -56,9 +56,8 @@ Json panel_json(const Panel& panel) {
 }
 
 Json figure_json(const Figure& figure) {
-  Json json = {{"id", figure.id},           {"kind", figure.kind},
-               {"title", figure.title},     {"caption", figure.caption},
-               {"alt", figure.alt},         {"pickers", figure.pickers}};
+  Json json = {{"id", figure.id},           {"kind", figure.kind}, {"title", figure.title},
+               {"caption", figure.caption}, {"alt", figure.alt},   {"pickers", figure.pickers}};
   if (figure.scale) json["scale"] = {figure.scale->first, figure.scale->second};
   if (!figure.derived_from.empty()) {
     json["derived_from"] = figure.derived_from;

@@ -12,7 +12,8 @@ bool is_numeric(const Table& table, std::size_t column) {
 }
 
 std::string cell_html(const char* tag, bool numeric, const std::string& text) {
-  const std::string open = numeric ? std::string("<") + tag + " class=\"n\">" : std::string("<") + tag + ">";
+  const std::string open =
+      numeric ? std::string("<") + tag + " class=\"n\">" : std::string("<") + tag + ">";
   return open + escaped(text) + "</" + tag + ">";
 }
 
@@ -90,10 +91,9 @@ std::string blocks_html(const std::vector<Block>& blocks) {
     if (is_small(block) != in_row) html += in_row ? "</div>\n" : "<div class=\"row\">\n";
     in_row = is_small(block);
     const std::string content = std::visit(ContentHtml{}, block.content);
-    html += block.folded_under.empty()
-                ? content
-                : "<details><summary>" + escaped(block.folded_under) + "</summary>\n" + content +
-                      "</details>\n";
+    html += block.folded_under.empty() ? content
+                                       : "<details><summary>" + escaped(block.folded_under) +
+                                             "</summary>\n" + content + "</details>\n";
   }
   return in_row ? html + "</div>\n" : html;
 }
@@ -108,7 +108,8 @@ std::string links_html(const std::vector<Section>& sections) {
 }
 
 constexpr std::string_view kPolicy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
+    "blob:";
 
 }  // namespace
 
@@ -116,12 +117,23 @@ std::string escaped(std::string_view text) {
   std::string html;
   for (const char letter : text) {
     switch (letter) {
-      case '&': html += "&amp;"; break;
-      case '<': html += "&lt;"; break;
-      case '>': html += "&gt;"; break;
-      case '"': html += "&quot;"; break;
-      case '\'': html += "&#39;"; break;
-      default: html += letter;
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += letter;
     }
   }
   return html;
@@ -131,7 +143,8 @@ std::string page_of(const Document& document) {
   std::string html = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   html += "<meta name=\"color-scheme\" content=\"light dark\">\n";
-  html += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string(kPolicy) + "\">\n";
+  html +=
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string(kPolicy) + "\">\n";
   html += "<title>" + escaped(document.title) + "</title>\n<style>" + page_style() + "</style>\n";
   html += "</head>\n<body>\n<main>\n<h1>" + escaped(document.title) + "</h1>\n";
   html += "<noscript><p>The figures need JavaScript; text and tables do not.</p></noscript>\n";

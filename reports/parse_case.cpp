@@ -78,6 +78,7 @@ Case parse_case(const json& artefact) {
   parsed.key = text_in(artefact, "key");
   parsed.input = text_in(artefact, "input");
   parsed.estimator = text_in(artefact, "estimator");
+  parsed.title = text_in(artefact, "title");
   parsed.method = text_in(artefact, "method");
   parsed.train = texts_in(artefact, "train");
   const double replicate = number_in(artefact, "replicate");

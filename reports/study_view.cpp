@@ -2,44 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 
+#include "lock_file.hpp"
 #include "numbers.hpp"
 
 namespace flexspline::reports {
 namespace {
 
-/// The paper's method first, then by id; midpoint methods by the number of loops they saw.
-std::vector<EstimatorView> estimators_of(const std::vector<Case>& cases) {
+/// In the study's order; without one, the paper's method first, by the number of loops it saw.
+std::vector<EstimatorView> estimators_of(const std::vector<Case>& cases, const LockFile& lock) {
   std::vector<EstimatorView> found;
   for (const Case& item : cases) {
     auto known = std::find_if(found.begin(), found.end(),
                               [&](const auto& other) { return other.id == item.estimator; });
     if (known == found.end()) {
-      known = found.insert(known, {item.estimator, item.method, item.train.size(), 0, 0});
+      known =
+          found.insert(known, {item.estimator, item.title, item.method, item.train.size(), 0, 0});
     }
     ++known->cases;
   }
-  std::sort(found.begin(), found.end(), [](const EstimatorView& a, const EstimatorView& b) {
-    return std::tuple(!a.is_midpoint(), a.loops, a.id) < std::tuple(!b.is_midpoint(), b.loops, b.id);
-  });
+  const auto rank = [&](const EstimatorView& one) {
+    return std::tuple(place_in(lock.estimators, one.id), !one.is_midpoint(), one.loops, one.id);
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   for (std::size_t i = 0; i < found.size(); ++i) found[i].rank = static_cast<int>(i);
   return found;
 }
 
 bool is_grid(const Input& input) {
-  std::set<std::pair<double, double>> places;
-  for (const InputRecording& recording : input.recordings) {
-    const bool known = std::isfinite(recording.amplitude) && std::isfinite(recording.frequency_hz);
-    if (!known || !places.emplace(recording.amplitude, recording.frequency_hz).second) return false;
+  std::set<std::tuple<double, double, std::string>> places;
+  for (const InputRecording& one : input.recordings) {
+    const bool known = std::isfinite(one.amplitude) && std::isfinite(one.frequency_hz);
+    if (!known || !places.emplace(one.amplitude, one.frequency_hz, one.role).second) return false;
   }
   return places.size() > 1;
 }
 
 }  // namespace
 
-bool same(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); }
+bool same(double a, double b) {
+  return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b));
+}
 
 std::string place_of(const Input& input, const CaseRecording& recording) {
   if (!std::isfinite(recording.amplitude) || !std::isfinite(recording.frequency_hz)) {
@@ -49,15 +56,41 @@ std::string place_of(const Input& input, const CaseRecording& recording) {
          compact(recording.frequency_hz, 4) + " Hz";
 }
 
+bool lies(const CaseRecording& recording, const OperatingPoint& point, Elsewhere elsewhere) {
+  const bool same_amplitude = same(recording.amplitude, point.amplitude);
+  const bool same_frequency = same(recording.frequency_hz, point.frequency_hz);
+  const bool larger = !same_amplitude && recording.amplitude > point.amplitude;
+  const bool faster = !same_frequency && recording.frequency_hz > point.frequency_hz;
+  switch (elsewhere) {
+    case Elsewhere::lower_amplitude:
+      return same_frequency && recording.amplitude < point.amplitude && !same_amplitude;
+    case Elsewhere::lower_frequency:
+      return same_amplitude && recording.frequency_hz < point.frequency_hz && !same_frequency;
+    case Elsewhere::beyond:
+      return larger || faster;
+    case Elsewhere::anywhere:
+      return true;
+  }
+  return false;
+}
+
 StudyView::StudyView(Artefacts artefacts) : artefacts_(std::move(artefacts)) {
-  estimators_ = estimators_of(artefacts_.cases);
-  const auto& inputs = artefacts_.inputs;
+  const LockFile lock = parse_lock(artefacts_.lock);
+  estimators_ = estimators_of(artefacts_.cases, lock);
+  auto& inputs = artefacts_.inputs;
+  std::stable_sort(inputs.begin(), inputs.end(), [&](const Input& a, const Input& b) {
+    return place_in(lock.inputs, a.id) < place_in(lock.inputs, b.id);
+  });
   on_grid_ = !inputs.empty() && std::all_of(inputs.begin(), inputs.end(), is_grid);
 }
 
 const EstimatorView* StudyView::paper_fit() const {
-  const bool has = !estimators_.empty() && estimators_.front().is_midpoint();
-  return has ? &estimators_.front() : nullptr;
+  const EstimatorView* best = nullptr;
+  for (const EstimatorView& estimator : estimators_) {
+    if (!estimator.is_midpoint()) continue;
+    if (best == nullptr || estimator.loops < best->loops) best = &estimator;
+  }
+  return best;
 }
 
 const EstimatorView* StudyView::full_trajectory() const {
@@ -94,8 +127,8 @@ OperatingPoint StudyView::operating_point(const Input& input) const {
     if (narrowest == nullptr || item.train.size() < narrowest->train.size()) narrowest = &item;
   }
   for (const InputRecording& recording : input.recordings) {
-    const bool chosen = narrowest != nullptr ? recording.id == narrowest->train.front()
-                                             : recording.role == "train";
+    const bool chosen =
+        narrowest != nullptr ? recording.id == narrowest->train.front() : recording.role == "train";
     if (chosen) return {recording.id, recording.amplitude, recording.frequency_hz};
   }
   return {};
@@ -120,23 +153,29 @@ std::vector<const CaseRecording*> StudyView::held_out(const Input& input, const 
   return common.empty() ? own : common;
 }
 
-bool StudyView::selected(const Input& input, const CaseRecording& recording,
-                         Elsewhere elsewhere) const {
-  const OperatingPoint point = operating_point(input);
-  const bool same_amplitude = same(recording.amplitude, point.amplitude);
-  const bool same_frequency = same(recording.frequency_hz, point.frequency_hz);
-  const bool outside = std::any_of(estimators_.begin(), estimators_.end(), [&](const auto& any) {
-    const Case* other = find(input, any);
-    const CaseRecording* twin = other != nullptr ? other->recording(recording.id) : nullptr;
-    return twin != nullptr && twin->outside_domain;
-  });
-  switch (elsewhere) {
-    case Elsewhere::other_amplitude: return same_frequency && !same_amplitude && !outside;
-    case Elsewhere::other_frequency: return same_amplitude && !same_frequency && !outside;
-    case Elsewhere::beyond_domain: return outside;
-    case Elsewhere::anywhere: return true;
+std::vector<const InputRecording*> StudyView::places(const Input& input) const {
+  std::vector<const InputRecording*> found;
+  std::map<std::pair<double, double>, const InputRecording*> grid;
+  for (const InputRecording& recording : input.recordings) {
+    found.push_back(&recording);
+    auto& place = grid[{recording.amplitude, recording.frequency_hz}];
+    if (place == nullptr || recording.role == "holdout") place = &recording;
   }
-  return false;
+  if (!on_grid_) return found;
+  found.clear();
+  for (const auto& [place, recording] : grid) found.push_back(recording);
+  return found;
+}
+
+const CaseRecording* StudyView::at_place(const Case& item, const InputRecording& place) const {
+  if (!on_grid_) return item.recording(place.id);
+  const CaseRecording* found = nullptr;
+  for (const CaseRecording& one : item.recordings) {
+    const bool here =
+        same(one.amplitude, place.amplitude) && same(one.frequency_hz, place.frequency_hz);
+    if (here && (found == nullptr || !one.trained)) found = &one;
+  }
+  return found;
 }
 
 Worst StudyView::worst(const Input& input, const EstimatorView& estimator,
@@ -144,8 +183,9 @@ Worst StudyView::worst(const Input& input, const EstimatorView& estimator,
   Worst worst;
   const Case* item = find(input, estimator);
   if (item == nullptr) return worst;
+  const OperatingPoint point = operating_point(input);
   for (const CaseRecording* recording : held_out(input, *item)) {
-    if (!selected(input, *recording, elsewhere)) continue;
+    if (!lies(*recording, point, elsewhere)) continue;
     const double percent = recording->error_percent();
     if (!(worst.percent >= percent) && std::isfinite(percent)) {
       worst = {percent, place_of(input, *recording)};

@@ -38,16 +38,17 @@ std::string markdown_text(std::string text) {
 }
 
 std::string latex_text(const std::string& text) {
-  static const std::array<std::pair<char, const char*>, 10> special = {{{'\\', "\\textbackslash{}"},
-                                                                        {'&', "\\&"},
-                                                                        {'%', "\\%"},
-                                                                        {'$', "\\$"},
-                                                                        {'#', "\\#"},
-                                                                        {'_', "\\_"},
-                                                                        {'{', "\\{"},
-                                                                        {'}', "\\}"},
-                                                                        {'~', "\\textasciitilde{}"},
-                                                                        {'^', "\\textasciicircum{}"}}};
+  static const std::array<std::pair<char, const char*>, 10> special = {
+      {{'\\', "\\textbackslash{}"},
+       {'&', "\\&"},
+       {'%', "\\%"},
+       {'$', "\\$"},
+       {'#', "\\#"},
+       {'_', "\\_"},
+       {'{', "\\{"},
+       {'}', "\\}"},
+       {'~', "\\textasciitilde{}"},
+       {'^', "\\textasciicircum{}"}}};
   std::string escaped;
   for (const char letter : text) {
     const auto found = std::find_if(special.begin(), special.end(),
@@ -137,9 +138,9 @@ std::string latex_of(const Table& table) {
     names += between + latex_text(table.columns[i].name);
     units += between + latex_text(table.columns[i].unit);
   }
-  std::string text = "\\begin{table}\n\\caption{" + latex_text(table.caption) + "}\n\\label{tab:" +
-                     table.id + "}\n\\begin{tabular}{" + layout + "}\n\\toprule\n" + names +
-                     " \\\\\n" + units + " \\\\\n\\midrule\n";
+  std::string text = "\\begin{table}\n\\caption{" + latex_text(table.caption) +
+                     "}\n\\label{tab:" + table.id + "}\n\\begin{tabular}{" + layout +
+                     "}\n\\toprule\n" + names + " \\\\\n" + units + " \\\\\n\\midrule\n";
   for (const auto& row : table.rows) {
     text += row_text(table, row, " & ", latex_text) + " \\\\\n";
   }

@@ -5,13 +5,15 @@
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/reports/section.hpp"
+#include "lock_file.hpp"
 #include "page.hpp"
-#include "study_title.hpp"
 
 namespace flexspline::reports {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kGeneralTitle = "Harmonic drive hysteresis: what the fits are worth";
 
 /// Two inputs may differ in letters that a file name cannot hold.
 void make_table_ids_unique(std::vector<Section>& sections) {
@@ -29,12 +31,12 @@ void make_table_ids_unique(std::vector<Section>& sections) {
 }
 
 Document compose(Artefacts artefacts) {
-  const std::string title = study_title(artefacts.lock);
+  const std::string title = parse_lock(artefacts.lock).title;
   const StudyView view(std::move(artefacts));
   std::vector<SectionRow> rows(sections().begin(), sections().end());
   std::stable_sort(rows.begin(), rows.end(),
                    [](const SectionRow& a, const SectionRow& b) { return a.order < b.order; });
-  Document document{title, {}};
+  Document document{title.empty() ? kGeneralTitle : title, {}};
   for (const SectionRow& row : rows) {
     if (auto section = row.draw(view)) document.sections.push_back(std::move(*section));
   }
@@ -69,8 +71,8 @@ Result<fs::path> write_report(const fs::path& study_folder) {
   const fs::path page = study_folder / "report" / "index.html";
   const auto written =
       write_tables(study_folder / "tables", document)
-          .and_then([&] { return write_file(page.parent_path() / "report.json",
-                                            report_json(document)); })
+          .and_then(
+              [&] { return write_file(page.parent_path() / "report.json", report_json(document)); })
           .and_then([&] { return write_file(page, page_of(document)); });
   if (!written) return tl::unexpected(in_context(written.error(), "report"));
   return page;

@@ -36,20 +36,30 @@ std::vector<std::string> labels(const std::vector<double>& values) {
   return labels;
 }
 
-std::string note_of(const CaseRecording& recording) {
-  if (recording.trained) return "trained";
+/// A loop that was recorded twice counts as trained on where its twin was.
+std::string note_of(const Input& input, const Case& item, const CaseRecording& recording) {
+  for (const InputRecording& one : input.recordings) {
+    const bool here = recording.id == one.id || (same(one.amplitude, recording.amplitude) &&
+                                                 same(one.frequency_hz, recording.frequency_hz));
+    const bool trained =
+        std::find(item.train.begin(), item.train.end(), one.id) != item.train.end();
+    if (here && trained) return "trained";
+  }
   return recording.outside_domain ? "outside" : "";
 }
 
-Panel grid_panel(const Input& input, const Case& item, const std::string& title) {
+Panel grid_panel(const StudyView& view, const Input& input, const Case& item,
+                 const std::string& title) {
   const Grid grid = grid_of(input);
   Panel panel;
   panel.title = title;
   panel.x = {"frequency / Hz", false, labels(grid.frequencies), {}};
   panel.y = {"amplitude / " + input.units.motion, false, labels(grid.amplitudes), {}};
-  for (const CaseRecording& recording : item.recordings) {
-    panel.cells.push_back({grid.column(recording.frequency_hz), grid.row(recording.amplitude),
-                           recording.error_percent(), note_of(recording)});
+  for (const InputRecording* place : view.places(input)) {
+    const CaseRecording* fit = view.at_place(item, *place);
+    if (fit == nullptr) continue;
+    panel.cells.push_back({grid.column(place->frequency_hz), grid.row(place->amplitude),
+                           fit->error_percent(), note_of(input, item, *fit)});
   }
   return panel;
 }
@@ -68,8 +78,8 @@ Panel list_panel(const StudyView& view, const Input& input) {
     for (std::size_t row = 0; row < input.recordings.size(); ++row) {
       const CaseRecording* fit = item->recording(input.recordings[row].id);
       if (fit == nullptr) continue;
-      panel.cells.push_back(
-          {estimator.rank, static_cast<int>(row), fit->error_percent(), note_of(*fit)});
+      panel.cells.push_back({estimator.rank, static_cast<int>(row), fit->error_percent(),
+                             note_of(input, *item, *fit)});
     }
   }
   return panel;
@@ -82,7 +92,7 @@ std::vector<Panel> panels_of(const StudyView& view, const Input& input) {
     const Case* item = view.find(input, estimator);
     if (item == nullptr) continue;
     const std::string title = item->failed ? estimator.id + " (failed)" : estimator.id;
-    panels.push_back(grid_panel(input, *item, title));
+    panels.push_back(grid_panel(view, input, *item, title));
   }
   return panels;
 }

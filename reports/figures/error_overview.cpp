@@ -31,14 +31,13 @@ Panel overview_panel(const StudyView& view, const std::string& title, ErrorOf er
 }
 
 Panel function_panel(const StudyView& view, const std::string& function) {
-  return overview_panel(view, function_label(function),
-                        [&](const Input& input, const EstimatorView& estimator) {
-                          const Case* item = view.find(input, estimator);
-                          if (item == nullptr) return kAbsent;
-                          const auto found = item->function_errors_percent.find(function);
-                          return found == item->function_errors_percent.end() ? kAbsent
-                                                                              : found->second;
-                        });
+  return overview_panel(
+      view, function_label(function), [&](const Input& input, const EstimatorView& estimator) {
+        const Case* item = view.find(input, estimator);
+        if (item == nullptr) return kAbsent;
+        const auto found = item->function_errors_percent.find(function);
+        return found == item->function_errors_percent.end() ? kAbsent : found->second;
+      });
 }
 
 Panel torque_panel(const StudyView& view, const std::string& title, Elsewhere elsewhere) {
@@ -78,8 +77,8 @@ Figure error_overview_figure(const StudyView& view) {
   Frame frame;
   for (Panel& panel : std::vector<Panel>{
            function_panel(view, "f"), function_panel(view, "g_inverse"),
-           torque_panel(view, "effort, other amplitude", Elsewhere::other_amplitude),
-           torque_panel(view, "effort, other frequency", Elsewhere::other_frequency)}) {
+           torque_panel(view, "effort, lower amplitude", Elsewhere::lower_amplitude),
+           torque_panel(view, "effort, lower frequency", Elsewhere::lower_frequency)}) {
     if (!panel.series.empty()) frame.panels.push_back(std::move(panel));
   }
   share_decades(frame.panels);

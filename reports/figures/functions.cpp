@@ -27,8 +27,8 @@ bool valid_at(const Band& band, double argument) {
 void add_estimator(Panel& panel, Extent& extent, const EstimatorView& estimator, const Band& band) {
   const Role role = role_of(estimator);
   if (band.lower.size() == band.argument.size() && band.upper.size() == band.argument.size()) {
-    panel.series.push_back({estimator.id + ", 95 %", "band", role, band.argument, band.value,
-                            band.lower, band.upper});
+    panel.series.push_back(
+        {estimator.id + ", 95 %", "band", role, band.argument, band.value, band.lower, band.upper});
   }
   panel.series.push_back({estimator.id, "line", role, band.argument, band.value, {}, {}});
   for (std::size_t i = 0; i < band.argument.size() && i < band.value.size(); ++i) {
@@ -60,8 +60,8 @@ Panel function_panel(const StudyView& view, const Input& input, const std::strin
   Extent extent;
   const auto truth = input.truth.find(function);
   if (truth != input.truth.end() && !truth->second.argument.empty()) {
-    panel.series.push_back({"truth", "line", {"truth", 0}, truth->second.argument,
-                            truth->second.value, {}, {}});
+    panel.series.push_back(
+        {"truth", "line", {"truth", 0}, truth->second.argument, truth->second.value, {}, {}});
     for (const double value : truth->second.value) extent.take(value);
   }
   for (const EstimatorView& estimator : view.estimators()) {
@@ -96,10 +96,12 @@ Figure function_figure(const StudyView& view) {
   figure.id = "functions";
   figure.title = "f, g⁻¹ and, where it can be known, h";
   figure.caption =
-      "Shaded: 95 % bands. Vertical lines: where the recordings an estimator saw end. Beyond them a "
+      "Shaded: 95 % bands. Vertical lines: where the recordings an estimator saw end. Beyond them "
+      "a "
       "polynomial turns round and leaves the picture; a band says nothing there.";
-  figure.alt = "Estimated functions with confidence bands, the truth where known, and the ends of "
-               "the domains of validity.";
+  figure.alt =
+      "Estimated functions with confidence bands, the truth where known, and the ends of "
+      "the domains of validity.";
   figure.pickers = {"input"};
   for (const Input& input : view.artefacts().inputs) {
     Frame frame{{input.title}, {}};

@@ -24,8 +24,13 @@ Panel panel_over(const Input& input, Number along, const std::string& along_labe
   panel.y.label = "half height / " + input.units.effort;
   int rank = 0;
   for (const auto& [value, points] : lines) {
-    Series series{each_name + " " + compact(value, 3) + " " + each_unit, "line", {"plain", rank++},
-                  {}, {}, {}, {}};
+    Series series{each_name + " " + compact(value, 3) + " " + each_unit,
+                  "line",
+                  {"plain", rank++},
+                  {},
+                  {},
+                  {},
+                  {}};
     for (const auto& [x, y] : points) {
       series.x.push_back(x);
       series.y.push_back(y);

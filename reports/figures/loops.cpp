@@ -78,11 +78,6 @@ std::vector<std::string> choice_of(const StudyView& view, const Input& input,
           compact(recording.frequency_hz, 4) + " Hz"};
 }
 
-bool before(const InputRecording& a, const InputRecording& b) {
-  if (a.amplitude != b.amplitude) return a.amplitude < b.amplitude;
-  return a.frequency_hz < b.frequency_hz;
-}
-
 }  // namespace
 
 Role role_of(const EstimatorView& estimator) { return {"estimator", estimator.rank}; }
@@ -92,7 +87,8 @@ Figure own_loop_figure(const StudyView& view) {
   figure.id = "own-loop";
   figure.title = "The loop that every estimator was given";
   figure.caption =
-      "Look for daylight between the lines. Where there is none, this loop cannot tell the estimators "
+      "Look for daylight between the lines. Where there is none, this loop cannot tell the "
+      "estimators "
       "apart: agreement on what was fitted proves nothing.";
   figure.alt = "Hysteresis loop, effort over motion: measured, and simulated by every estimator.";
   figure.pickers = {"input"};
@@ -111,22 +107,21 @@ Figure loops_figure(const StudyView& view) {
   figure.id = "loops";
   figure.title = "Loop by loop: measured against each estimator";
   figure.caption =
-      "Step away from the training loop, in amplitude or in frequency, and watch which line stays on "
+      "Step away from the training loop, in amplitude or in frequency, and watch which line stays "
+      "on "
       "the measured one. Drag or pinch to zoom; a click in the legend hides a line.";
   figure.alt = "Hysteresis loops at every amplitude and frequency: measured and simulated.";
   figure.pickers = view.on_grid() ? std::vector<std::string>{"input", "amplitude", "frequency"}
                                   : std::vector<std::string>{"input", "recording"};
   std::size_t loops = 1;
-  for (const Input& input : view.artefacts().inputs) loops += input.recordings.size();
+  for (const Input& input : view.artefacts().inputs) loops += view.places(input).size();
   const std::size_t numbers = kNumbersInLoopPicker / (loops * (view.estimators().size() + 2));
   const std::size_t points = std::clamp<std::size_t>(numbers, 60, 400);
   for (const Input& input : view.artefacts().inputs) {
-    std::vector<InputRecording> sorted = input.recordings;
-    if (view.on_grid()) std::stable_sort(sorted.begin(), sorted.end(), before);
-    for (const InputRecording& recording : sorted) {
-      if (recording.motion.empty()) continue;
+    for (const InputRecording* recording : view.places(input)) {
+      if (recording->motion.empty()) continue;
       figure.frames.push_back(
-          {choice_of(view, input, recording), {loop_panel(view, input, recording, points)}});
+          {choice_of(view, input, *recording), {loop_panel(view, input, *recording, points)}});
     }
   }
   return figure;

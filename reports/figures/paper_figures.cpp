@@ -8,7 +8,7 @@
 namespace flexspline::reports {
 namespace {
 
-constexpr double kAmplitudeDeg = 0.2;    ///< 10 deg at the motor, ratio 50
+constexpr double kAmplitudeDeg = 0.2;  ///< 10 deg at the motor, ratio 50
 constexpr double kFrequencyHz = 0.005;
 
 /// Coefficients c1, c2, ... of an odd polynomial out of Table I.
@@ -72,10 +72,9 @@ Figure table_one_figure(const Paper& paper) {
       "training loop only.";
   figure.alt = "Table I's f and g⁻¹ rise to the end of the fitted range, then fall below zero.";
   const double rate = 2.0 * std::numbers::pi * kFrequencyHz * kAmplitudeDeg;
-  figure.frames.push_back(
-      {{},
-       {beyond_panel(a, kAmplitudeDeg, "f", "motion / deg", "f / Nm"),
-        beyond_panel(b, rate, "g⁻¹", "rate of motion / (deg/s)", "g⁻¹ / Nm")}});
+  figure.frames.push_back({{},
+                           {beyond_panel(a, kAmplitudeDeg, "f", "motion / deg", "f / Nm"),
+                            beyond_panel(b, rate, "g⁻¹", "rate of motion / (deg/s)", "g⁻¹ / Nm")}});
   return figure;
 }
 
@@ -90,8 +89,13 @@ Figure paper_figure(const PaperFigure& from) {
   panel.y.label = from.y_label;
   int rank = 0;
   for (const PaperSeries& series : from.series) {
-    panel.series.push_back({series.name, series.points ? "points" : "line", {"plain", rank++},
-                            thinned(series.x, 400), thinned(series.y, 400), {}, {}});
+    panel.series.push_back({series.name,
+                            series.points ? "points" : "line",
+                            {"plain", rank++},
+                            thinned(series.x, 400),
+                            thinned(series.y, 400),
+                            {},
+                            {}});
   }
   figure.frames.push_back({{}, {std::move(panel)}});
   return figure;

@@ -21,19 +21,21 @@ struct TorqueColumn {
   Elsewhere elsewhere;
 };
 
-constexpr TorqueColumn kTorqueColumns[] = {{"other amplitude", Elsewhere::other_amplitude},
-                                           {"other frequency", Elsewhere::other_frequency},
-                                           {"beyond the domain", Elsewhere::beyond_domain}};
+constexpr TorqueColumn kTorqueColumns[] = {{"lower amplitude", Elsewhere::lower_amplitude},
+                                           {"lower frequency", Elsewhere::lower_frequency},
+                                           {"beyond the loop", Elsewhere::beyond}};
 
 /// An input a row, the principal estimators side by side.
 Table side_by_side(const StudyView& view) {
   const auto principal = view.principal();
-  Table table{"paper-against-full",
-              "Errors in percent: of f and g⁻¹ over the training range, of their edge values; of the "
-              "effort, the worst recording that nobody was trained on, of its peak, at the "
-              "operating point's frequency and another amplitude, or the reverse, within every "
-              "estimator's domain; and beyond a domain.",
-              {{"input", "", 3}}, {}};
+  Table table{
+      "paper-against-full",
+      "Errors in percent: of f and g⁻¹ over the training range, of their edge values; of the "
+      "effort, the worst recording that nobody was trained on, of its peak: smaller than the "
+      "operating point's loop at its frequency, slower at its amplitude, and larger or "
+      "faster than it.",
+      {{"input", "", 3}},
+      {}};
   const auto each = [&](const std::string& quantity) {
     for (const EstimatorView* estimator : principal) {
       table.columns.push_back({quantity + ", " + estimator->id, "%", 2});
@@ -60,11 +62,11 @@ Table side_by_side(const StudyView& view) {
 
 /// Every estimator, with the recording on which it is worst.
 Table in_full(const StudyView& view) {
-  Table table{"function-and-effort-errors",
-              "The same for every estimator, with the recording on which it is worst.",
-              {{"input", "", 3}, {"estimator", "", 3}, {"f", "%", 2}, {"g⁻¹", "%", 2},
-               {"h", "%", 2}},
-              {}};
+  Table table{
+      "function-and-effort-errors",
+      "The same for every estimator, with the recording on which it is worst.",
+      {{"input", "", 3}, {"estimator", "", 3}, {"f", "%", 2}, {"g⁻¹", "%", 2}, {"h", "%", 2}},
+      {}};
   for (const TorqueColumn& column : kTorqueColumns) {
     table.columns.push_back({std::string("effort, ") + column.name, "%", 2});
     table.columns.push_back({"worst at", "", 3});
@@ -90,7 +92,7 @@ Table in_full(const StudyView& view) {
 Worst worst_inside(const StudyView& view, const EstimatorView& estimator) {
   Worst all;
   for (const Input& input : view.artefacts().inputs) {
-    for (const Elsewhere elsewhere : {Elsewhere::other_amplitude, Elsewhere::other_frequency}) {
+    for (const Elsewhere elsewhere : {Elsewhere::lower_amplitude, Elsewhere::lower_frequency}) {
       const Worst one = view.worst(input, estimator, elsewhere);
       if (std::isfinite(one.percent) && !(all.percent >= one.percent)) {
         all = {one.percent, input.title + " at " + one.where};
@@ -105,16 +107,16 @@ std::string verdict_of(const StudyView& view) {
   if (full == nullptr) return "No full-trajectory estimator is part of this folder.";
   const Worst mine = worst_inside(view, *full);
   if (!std::isfinite(mine.percent)) {
-    return full->id + " has no held-out loop at another amplitude or frequency to be judged on.";
+    return full->id + " has no smaller or slower held-out loop to be judged on.";
   }
   std::string text = mine.percent < 2.0 ? "Yes: " : "Not for every input: ";
-  text += "within the domain its recordings support, " + full->id + " is off by at most " +
-          digits(mine.percent, 2) + " % of peak (" + mine.where + ")";
+  text += "on smaller and slower loops than the operating point's, " + full->id +
+          " is off by at most " + digits(mine.percent, 2) + " % of peak (" + mine.where + ")";
   if (const EstimatorView* paper = view.paper_fit(); paper != nullptr) {
     const Worst theirs = worst_inside(view, *paper);
     if (std::isfinite(theirs.percent)) {
-      text += "; " + paper->id + " by up to " + digits(theirs.percent, 2) + " % (" + theirs.where +
-              ")";
+      text +=
+          "; " + paper->id + " by up to " + digits(theirs.percent, 2) + " % (" + theirs.where + ")";
     }
   }
   return text + ".";

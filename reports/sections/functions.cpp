@@ -20,8 +20,14 @@ Table identifiability_table(const StudyView& view) {
   Table table{"identifiability",
               "What can be told apart on these recordings: condition of the scaled Jacobian, and "
               "the parameter that the rest of the model imitates best (cosine 1: entirely).",
-              {{"input", "", 3}, {"estimator", "", 3}, {"verdict", "", 3}, {"condition", "", 2},
-               {"most absorbed", "", 3}, {"by", "", 3}, {"cosine", "", 6}, {"in words", "", 3}},
+              {{"input", "", 3},
+               {"estimator", "", 3},
+               {"verdict", "", 3},
+               {"condition", "", 2},
+               {"most absorbed", "", 3},
+               {"by", "", 3},
+               {"cosine", "", 6},
+               {"in words", "", 3}},
               {}};
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {
@@ -39,8 +45,14 @@ Table identifiability_table(const StudyView& view) {
 Table parameter_table(const StudyView& view, const Input& input) {
   Table table{"parameters-" + slug(input.id),
               "Parameters on " + input.title + " with standard deviations and 95 % intervals.",
-              {{"estimator", "", 3}, {"parameter", "", 3}, {"value", "", 5}, {"std", "", 2},
-               {"from", "", 5}, {"to", "", 5}, {"unit", "", 3}, {"on a bound", "", 3}},
+              {{"estimator", "", 3},
+               {"parameter", "", 3},
+               {"value", "", 5},
+               {"std", "", 2},
+               {"from", "", 5},
+               {"to", "", 5},
+               {"unit", "", 3},
+               {"on a bound", "", 3}},
               {}};
   for (const EstimatorView& estimator : view.estimators()) {
     const Case* item = view.find(input, estimator);
@@ -62,7 +74,8 @@ void add_reasons(const StudyView& view, Section& section) {
       if (item == nullptr || item->failed || item->band("h") != nullptr) continue;
       const bool refused = item->verdict == "weak" || item->verdict == "not_identifiable";
       if (!refused || item->says.empty() || !told.insert(estimator.id).second) continue;
-      section.add(Paragraph{"No h from " + estimator.id + " on " + input.title + ": " + item->says});
+      section.add(
+          Paragraph{"No h from " + estimator.id + " on " + input.title + ": " + item->says});
     }
   }
 }

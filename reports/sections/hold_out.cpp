@@ -18,8 +18,8 @@ std::vector<Cell> row_of(const StudyView& view, const Input& input, const Estima
                          const Case& item) {
   if (item.failed) {
     const std::string remedy = item.remedy.empty() ? "" : "; " + item.remedy;
-    return {input.title, estimator.id, kAbsent, kAbsent, kAbsent,
-            "failed: " + item.failure + remedy};
+    return {input.title, estimator.id, kAbsent,
+            kAbsent,     kAbsent,      "failed: " + item.failure + remedy};
   }
   const std::vector<double> errors = errors_of(view.held_out(input, item));
   const Worst worst = view.worst(input, estimator, Elsewhere::anywhere);
@@ -30,14 +30,19 @@ std::vector<Cell> row_of(const StudyView& view, const Input& input, const Estima
 constexpr const char* kWhatIsShown =
     "Error of the simulated effort on held-out recordings, in percent of each recording's peak: "
     "against the noise-free torque where the bench knows it, else against what was measured. Held "
-    "out are the recordings that no estimator was trained on; where there are none, those that this "
+    "out are the recordings that no estimator was trained on; where there are none, those that "
+    "this "
     "one was not.";
 
 Table in_full(const StudyView& view) {
   Table table{"hold-out-every-estimator",
               kWhatIsShown,
-              {{"input", "", 3}, {"estimator", "", 3}, {"recordings held out", "", 0},
-               {"median", "%", 2}, {"worst", "%", 2}, {"where, or why there is no number", "", 3}},
+              {{"input", "", 3},
+               {"estimator", "", 3},
+               {"recordings held out", "", 0},
+               {"median", "%", 2},
+               {"worst", "%", 2},
+               {"where, or why there is no number", "", 3}},
               {}};
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {
@@ -89,9 +94,9 @@ std::string verdict_of(const StudyView& view) {
   }
   if (!std::isfinite(highest.percent)) return {};
   const std::string answer = highest.percent < 2.0 ? "Yes: " : "No: ";
-  return answer + "on loops that nobody was trained on, the worst error of " + paper->id + " is between " +
-         digits(lowest, 2) + " % and " + digits(highest.percent, 2) + " % of peak (" +
-         highest_input + " at " + highest.where + ").";
+  return answer + "on loops that nobody was trained on, the worst error of " + paper->id +
+         " is between " + digits(lowest, 2) + " % and " + digits(highest.percent, 2) +
+         " % of peak (" + highest_input + " at " + highest.where + ").";
 }
 
 std::optional<Section> draw(const StudyView& view) {

@@ -17,21 +17,36 @@ std::string relative_place(const OperatingPoint& point, const InputRecording& re
          compact(std::round(frequency * 1000.0) / 1000.0, 3) + ")";
 }
 
+/// Places at which every estimator that ran has a recording; what only one was trained on is no
+/// comparison.
+std::vector<const InputRecording*> common_places(const StudyView& view, const Input& input) {
+  std::vector<const InputRecording*> places = view.places(input);
+  for (const EstimatorView& estimator : view.estimators()) {
+    const Case* item = view.find(input, estimator);
+    if (item == nullptr || item->failed) continue;
+    std::erase_if(places,
+                  [&](const auto* place) { return view.at_place(*item, *place) == nullptr; });
+  }
+  return places;
+}
+
 Table by_recording(const StudyView& view, const Input& input) {
   const OperatingPoint point = view.operating_point(input);
   Table table{"errors-" + slug(input.id),
               "Error in percent of peak on " + input.title +
                   ", by (amplitude, frequency) relative to the operating point.",
-              {{"estimator", "", 3}, {"loops trained on", "", 0}}, {}};
-  for (const InputRecording& recording : input.recordings) {
-    table.columns.push_back({relative_place(point, recording), "%", 2});
+              {{"estimator", "", 3}, {"loops trained on", "", 0}},
+              {}};
+  const auto places = common_places(view, input);
+  for (const InputRecording* place : places) {
+    table.columns.push_back({relative_place(point, *place), "%", 2});
   }
   for (const EstimatorView& estimator : view.estimators()) {
     const Case* item = view.find(input, estimator);
     if (item == nullptr || item->failed) continue;
     std::vector<Cell> row{estimator.id, static_cast<double>(item->train.size())};
-    for (const InputRecording& recording : input.recordings) {
-      const CaseRecording* fit = item->recording(recording.id);
+    for (const InputRecording* place : places) {
+      const CaseRecording* fit = view.at_place(*item, *place);
       row.emplace_back(fit != nullptr ? fit->error_percent() : kAbsent);
     }
     table.rows.push_back(std::move(row));
@@ -40,7 +55,9 @@ Table by_recording(const StudyView& view, const Input& input) {
 }
 
 /// A virtual bench without f and g^-1 as truth: memory that no viscous law describes.
-bool is_rate_independent(const Input& input) { return input.kind == "bench" && input.truth.empty(); }
+bool is_rate_independent(const Input& input) {
+  return input.kind == "bench" && input.truth.empty();
+}
 
 /// Slope of ln(half height) along one quantity at fixed other; NaN where there is no such pair.
 double exponent(const Input& input, double InputRecording::*along, double InputRecording::*fixed) {
@@ -66,7 +83,8 @@ std::string verdict_of(const Input& input) {
           ? ": flat in frequency, so what is lost per cycle is rate-independent, not viscous."
           : ": it depends on frequency, so part of what is lost per cycle is viscous.";
   return input.title + ": the loop's half height goes with amplitude to the power " +
-         digits(amplitude, 2) + " and with frequency to the power " + digits(frequency, 2) + reading;
+         digits(amplitude, 2) + " and with frequency to the power " + digits(frequency, 2) +
+         reading;
 }
 
 Figure residual_figure(const Figure& loops) {
@@ -74,7 +92,8 @@ Figure residual_figure(const Figure& loops) {
   figure.id = "residuals";
   figure.title = "What is left over: measured less simulated effort";
   figure.caption =
-      "Noise has no shape. A residual that is a loop of its own, or grows at the ends of the motion, "
+      "Noise has no shape. A residual that is a loop of its own, or grows at the ends of the "
+      "motion, "
       "is physics that the model does not have.";
   figure.alt = "Residual effort over motion for every estimator on the chosen recording.";
   figure.derived_from = loops.id;

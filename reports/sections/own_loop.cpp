@@ -40,15 +40,18 @@ Table side_by_side(const StudyView& view) {
 Table in_full(const StudyView& view) {
   Table table{"own-loop-every-estimator",
               "The same for every estimator, in the unit of the effort too.",
-              {{"input", "", 3}, {"estimator", "", 3}, {"rmse", "unit of effort", 3},
-               {"rmse", "%", 2}, {"area", "%", 2}},
+              {{"input", "", 3},
+               {"estimator", "", 3},
+               {"rmse", "unit of effort", 3},
+               {"rmse", "%", 2},
+               {"area", "%", 2}},
               {}};
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {
       const CaseRecording* fit = own(view, input, estimator);
       if (fit == nullptr) continue;
-      table.rows.push_back({input.title, estimator.id, fit->rmse, fit->rmse_percent,
-                            fit->area_error_percent});
+      table.rows.push_back(
+          {input.title, estimator.id, fit->rmse, fit->rmse_percent, fit->area_error_percent});
     }
   }
   return table;

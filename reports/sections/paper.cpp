@@ -23,8 +23,12 @@ int agreeing_digits(const Fact& fact) {
 Table facts_table(const Paper& paper) {
   Table table{"paper-facts",
               "What can be computed from the paper's own numbers, beside what was published.",
-              {{"fact", "", 3}, {"ours", "", 5}, {"published", "", 3}, {"unit", "", 3},
-               {"digits published", "", 0}, {"digits that agree", "", 0}},
+              {{"fact", "", 3},
+               {"ours", "", 5},
+               {"published", "", 3},
+               {"unit", "", 3},
+               {"digits published", "", 0},
+               {"digits that agree", "", 0}},
               {}};
   for (const Fact& fact : paper.facts) {
     table.rows.push_back({fact.says, fact.value, fact.published, fact.unit,
@@ -38,8 +42,12 @@ Table table_one(const Paper& paper) {
   Table table{"table-1",
               "Table I: coefficients as published, and as the paper's method recovers them from "
               "the virtual bench.",
-              {{"coefficient", "", 3}, {"published", "", 5}, {"recovered", "", 5}, {"std", "", 2},
-               {"off by", "std", 2}, {"unit", "", 3}},
+              {{"coefficient", "", 3},
+               {"published", "", 5},
+               {"recovered", "", 5},
+               {"std", "", 2},
+               {"off by", "std", 2},
+               {"unit", "", 3}},
               {}};
   for (const TableOneRow& row : paper.table_1) {
     table.rows.push_back({row.name, row.published, row.recovered, row.std,
@@ -49,9 +57,12 @@ Table table_one(const Paper& paper) {
 }
 
 Table table_two(const Paper& paper) {
-  Table table{"table-2", "Table II: the bench.", {{"quantity", "", 3}, {"value", "", 5},
-                                                 {"unit", "", 3}}, {}};
-  for (const TableTwoRow& row : paper.table_2) table.rows.push_back({row.name, row.value, row.unit});
+  Table table{"table-2",
+              "Table II: the bench.",
+              {{"quantity", "", 3}, {"value", "", 5}, {"unit", "", 3}},
+              {}};
+  for (const TableTwoRow& row : paper.table_2)
+    table.rows.push_back({row.name, row.value, row.unit});
   return table;
 }
 

@@ -6,9 +6,15 @@ namespace flexspline::reports {
 namespace {
 
 Table inputs_table(const StudyView& view) {
-  Table table{"inputs", "The inputs: virtual benches, whose truth is known, and data sets.",
-              {{"id", "", 3}, {"title", "", 3}, {"kind", "", 3}, {"recordings", "", 0},
-               {"what it is", "", 3}, {"source", "", 3}, {"license", "", 3}},
+  Table table{"inputs",
+              "The inputs: virtual benches, whose truth is known, and data sets.",
+              {{"id", "", 3},
+               {"title", "", 3},
+               {"kind", "", 3},
+               {"recordings", "", 0},
+               {"what it is", "", 3},
+               {"source", "", 3},
+               {"license", "", 3}},
               {}};
   for (const Input& input : view.artefacts().inputs) {
     table.rows.push_back({input.id, input.title, input.kind,
@@ -25,9 +31,14 @@ std::string notes_of(const Case& item) {
 }
 
 Table cases_table(const StudyView& view) {
-  Table table{"cases", "Every case: how it ended, and what to know before believing it.",
-              {{"case", "", 3}, {"method", "", 3}, {"loops trained on", "", 0}, {"status", "", 3},
-               {"ended", "", 3}, {"notes, or why it failed", "", 3}},
+  Table table{"cases",
+              "Every case: how it ended, and what to know before believing it.",
+              {{"case", "", 3},
+               {"method", "", 3},
+               {"loops trained on", "", 0},
+               {"status", "", 3},
+               {"ended", "", 3},
+               {"notes, or why it failed", "", 3}},
               {}};
   for (const Case& item : view.artefacts().cases) {
     table.rows.push_back({item.key, item.method, static_cast<double>(item.train.size()),

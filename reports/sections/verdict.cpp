@@ -63,12 +63,37 @@ std::string sentence_of(const StudyView& view, const EstimatorView& estimator) {
     text += " gave no numbers on the loops it was given";
   }
   if (other.count > 0) {
-    text += "; on the " + std::to_string(other.count) + " that were kept from every estimator it is off by " +
-            digits(other.best, 2) + " % at best, " + digits(other.middle, 2) +
-            " % in the middle case and " + digits(other.worst, 2) + " % at worst (" +
-            other.worst_where + ")";
+    text += "; on the " + std::to_string(other.count) +
+            " that were kept from every estimator it is off by " + digits(other.best, 2) +
+            " % at best, " + digits(other.middle, 2) + " % in the middle case and " +
+            digits(other.worst, 2) + " % at worst (" + other.worst_where + ")";
   }
   return text + ".";
+}
+
+Table estimators_table(const StudyView& view) {
+  Table table{
+      "estimators",
+      "Every estimator over the whole study, in percent of each loop's peak: on the loops it "
+      "was trained on, and on those that nobody was.",
+      {{"estimator", "", 3},
+       {"what it is", "", 3},
+       {"loops trained on", "", 0},
+       {"cases", "", 0},
+       {"trained, median", "%", 2},
+       {"trained, worst", "%", 2},
+       {"held out, best", "%", 2},
+       {"held out, median", "%", 2},
+       {"held out, worst", "%", 2}},
+      {}};
+  for (const EstimatorView& one : view.estimators()) {
+    const Spread own = spread_of(view, one, Loops::trained);
+    const Spread other = spread_of(view, one, Loops::unseen);
+    table.rows.push_back({one.id, one.title.empty() ? one.method : one.title,
+                          static_cast<double>(one.loops), static_cast<double>(one.cases),
+                          own.middle, own.worst, other.best, other.middle, other.worst});
+  }
+  return table;
 }
 
 /// How many failed, and the first of them with their reasons.
@@ -110,9 +135,10 @@ std::optional<Section> draw(const StudyView& view) {
   if (const std::string summary = summary_of(view); !summary.empty()) {
     section.add(Verdict{summary});
   }
-  for (const EstimatorView& estimator : view.estimators()) {
-    section.add(Paragraph{sentence_of(view, estimator)});
+  for (const EstimatorView* estimator : view.principal()) {
+    section.add(Paragraph{sentence_of(view, *estimator)});
   }
+  section.add(estimators_table(view));
   add_failures(view, section);
   return section;
 }

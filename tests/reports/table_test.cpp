@@ -17,8 +17,7 @@ Table example() {
 }
 
 TEST(Table, CsvKeepsEveryDigitAndQuotesNames) {
-  EXPECT_EQ(csv_of(example()),
-            "input,error / %\n\"a \"\"quoted\"\", name\",0.123456\nb|c_d,\n");
+  EXPECT_EQ(csv_of(example()), "input,error / %\n\"a \"\"quoted\"\", name\",0.123456\nb|c_d,\n");
 }
 
 TEST(Table, MarkdownHasARowOfUnitsAndEscapesBars) {

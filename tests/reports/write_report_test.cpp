@@ -25,10 +25,9 @@ std::set<std::string> section_ids(const StudyFolder& study) {
   return ids;
 }
 
-const std::set<std::string> kAll = {"verdict",           "own-loop-section",
-                                    "hold-out-section",  "full-trajectory-section",
-                                    "functions-section", "left-over-section",
-                                    "paper-section",     "provenance-section"};
+const std::set<std::string> kAll = {
+    "verdict",           "own-loop-section",  "hold-out-section", "full-trajectory-section",
+    "functions-section", "left-over-section", "paper-section",    "provenance-section"};
 
 TEST(WriteReport, GivesTheSameBytesWhereverTheSameArtefactsLie) {
   const StudyFolder study;
@@ -53,9 +52,9 @@ TEST(WriteReport, HoldsEverySectionInOrderAndIsLight) {
   EXPECT_EQ(section_ids(study), kAll);
   const std::string html = study.text("report/index.html");
   std::size_t at = 0;
-  for (const char* id : {"verdict", "own-loop-section", "hold-out-section",
-                         "full-trajectory-section", "functions-section", "left-over-section",
-                         "paper-section", "provenance-section"}) {
+  for (const char* id :
+       {"verdict", "own-loop-section", "hold-out-section", "full-trajectory-section",
+        "functions-section", "left-over-section", "paper-section", "provenance-section"}) {
     const std::size_t found = html.find("<section id=\"" + std::string(id));
     ASSERT_NE(found, std::string::npos) << id;
     EXPECT_GT(found, at) << id;
@@ -85,15 +84,17 @@ TEST(WriteReport, ShowsHostileNamesWithoutRunningThem) {
 TEST(WriteReport, ShowsAFailedCaseWithItsReasonAndNoNumbers) {
   const StudyFolder study;
   ASSERT_TRUE(write_report(study.path()));
-  EXPECT_TRUE(contains(study.text("tables/hold-out-every-estimator.csv"), "trajectory_one_loop,,,,failed: the "
-                                                           "simulation of a0.2000-f0.01000"));
+  EXPECT_TRUE(contains(study.text("tables/hold-out-every-estimator.csv"),
+                       "trajectory_one_loop,,,,failed: the "
+                       "simulation of a0.2000-f0.01000"));
   EXPECT_TRUE(contains(study.text("report/index.html"), "1 of 16 cases failed"));
 }
 
 TEST(WriteReport, RefusesHWithTheEstimatorsReason) {
   const StudyFolder study;
   ASSERT_TRUE(write_report(study.path()));
-  EXPECT_TRUE(contains(study.text("report/index.html"), "No h from trajectory_one_loop on h even: one loop cannot tell"));
+  EXPECT_TRUE(contains(study.text("report/index.html"),
+                       "No h from trajectory_one_loop on h = 1: one loop cannot tell"));
 }
 
 struct Part {

@@ -86,7 +86,7 @@ struct AbsorbedShare {
 
 /// flexspline-case/1 with the part of its estimate that is shown.
 struct Case {
-  std::string key, input, estimator, method;
+  std::string key, input, estimator, title, method;
   std::vector<std::string> train;
   long replicate = 0;
   bool failed = false;

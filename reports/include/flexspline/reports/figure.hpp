@@ -27,7 +27,7 @@ struct Series {
 struct Axis {
   std::string label;  ///< with its unit
   bool log = false;
-  std::vector<std::string> categories;              ///< not empty: a category axis
+  std::vector<std::string> categories;             ///< not empty: a category axis
   std::optional<std::pair<double, double>> range;  ///< where the data's own would hide what matters
 };
 

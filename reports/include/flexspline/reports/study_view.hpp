@@ -11,6 +11,7 @@ namespace flexspline::reports {
 /// An estimator of the study, in the order in which it is shown.
 struct EstimatorView {
   std::string id;
+  std::string title;
   std::string method;
   std::size_t loops = 0;  ///< recordings it was trained on, on its first input
   std::size_t cases = 0;  ///< how often it ran
@@ -33,8 +34,9 @@ struct Worst {
   std::string where;
 };
 
-/// Which held-out recordings, relative to the operating point.
-enum class Elsewhere { other_amplitude, other_frequency, beyond_domain, anywhere };
+/// Which held-out recordings, relative to the operating point: smaller or slower, with the other
+/// quantity as it is there; larger or faster than anything there; or any.
+enum class Elsewhere { lower_amplitude, lower_frequency, beyond, anywhere };
 
 /// Questions that several sections ask of the artefacts.
 class StudyView {
@@ -60,21 +62,29 @@ class StudyView {
   /// those that this one was not.
   std::vector<const CaseRecording*> held_out(const Input& input, const Case& item) const;
 
-  /// Largest error on held-out recordings: at another amplitude or frequency within every
-  /// estimator's domain of validity; beyond somebody's; or anywhere.
+  /// One recording for each amplitude and frequency in ascending order, the held-out one where a
+  /// loop was recorded twice; off the grid every recording in its own order.
+  std::vector<const InputRecording*> places(const Input& input) const;
+
+  /// Of a case, the recording at that place: held out if there is one.
+  const CaseRecording* at_place(const Case& item, const InputRecording& place) const;
+
+  /// Largest error on held-out recordings, and where.
   Worst worst(const Input& input, const EstimatorView& estimator, Elsewhere elsewhere) const;
 
-  /// True where every input's recordings differ in (amplitude, frequency) and have both.
+  /// True where every recording has an amplitude and a frequency and no two of one role share them.
   bool on_grid() const { return on_grid_; }
 
  private:
   std::set<std::string> trained_on(const Input& input) const;
-  bool selected(const Input& input, const CaseRecording& recording, Elsewhere elsewhere) const;
 
   Artefacts artefacts_;
   std::vector<EstimatorView> estimators_;
   bool on_grid_ = false;
 };
+
+/// Whether a recording lies there, seen from the operating point.
+bool lies(const CaseRecording& recording, const OperatingPoint& point, Elsewhere elsewhere);
 
 /// "0.2 deg, 0.005 Hz", or the recording's id where it has no such numbers.
 std::string place_of(const Input& input, const CaseRecording& recording);
