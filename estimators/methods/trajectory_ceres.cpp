@@ -101,20 +101,39 @@ Result<Fit> fit_torque(const LinearStart& start, const std::vector<PreparedRecor
   return minimised(problem, start, records, settings, Direction::torque);
 }
 
-// Offset, inertia and delay that lie within three standard deviations of zero are left out: kept,
-// they would only pass their uncertainty on to g^-1.
+// Offset, inertia, delay and the highest terms of ln h that lie within three standard deviations of
+// zero: kept, they would only pass their uncertainty on to g^-1. ln h keeps two terms.
 FreeTerms significant_terms(const Fit& fit) {
   const TorsionLayout& layout = fit.at.layout;
-  auto keep = [&](const Group& group) {
-    if (!group.present()) return false;
-    const auto k = static_cast<Eigen::Index>(group.first);
-    return std::abs(fit.solution.p[group.first]) > kMaterial * std::sqrt(fit.covariance(k, k));
+  auto far_from_zero = [&](std::size_t k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    return std::abs(fit.solution.p[k]) > kMaterial * std::sqrt(fit.covariance(i, i));
   };
+  auto keep = [&](const Group& group) { return group.present() && far_from_zero(group.first); };
   FreeTerms free = layout.free_terms();
   free.offset = keep(layout.offset_group);
   free.inertia = keep(layout.inertia_group);
   free.delay = keep(layout.delay_group);
+  if (free.h > kFewestModulationTerms && !far_from_zero(layout.h_group.first + free.h - 1)) {
+    --free.h;
+  }
   return free;
+}
+
+bool same(const FreeTerms& a, const FreeTerms& b) {
+  return a.h == b.h && a.offset == b.offset && a.inertia == b.inertia && a.delay == b.delay;
+}
+
+// Eq. (4), with the terms that do not tell themselves from zero taken out one round after another.
+Result<Fit> fit_torque_pruned(const LinearStart& start, const std::vector<PreparedRecord>& records,
+                              const SolverSettings& settings) {
+  auto fit = fit_torque(start, records, settings);
+  while (fit) {
+    const FreeTerms kept = significant_terms(*fit);
+    if (same(kept, fit->at.layout.free_terms())) break;
+    fit = fit_torque(with_terms(fit->at, kept), records, settings);
+  }
+  return fit;
 }
 
 Result<Fit> fit_torsion(const Fit& from, const std::vector<PreparedRecord>& records,
@@ -212,10 +231,7 @@ Result<Estimate> fit(const FitProblem& problem) {
 
   const SolverSettings settings{
       .max_iterations = static_cast<int>(number(problem, method, "iterations"))};
-  auto result = fit_torque(with_terms(*start, decision->free), *records, settings);
-  if (result) {
-    result = fit_torque(with_terms(result->at, significant_terms(*result)), *records, settings);
-  }
+  auto result = fit_torque_pruned(with_terms(*start, decision->free), *records, settings);
   if (result && direction_of(problem, method, *records) == Direction::torsion) {
     const double tolerance = number(problem, method, "tolerance");
     result = fit_torsion(*result, *records, settings, {tolerance, tolerance, 200000});

@@ -35,7 +35,7 @@ class LeastSquaresProblem {
 
 struct SolverSettings {
   int max_iterations = 60;
-  double function_tolerance = 1e-9;
+  double function_tolerance = 1e-7;
   double parameter_tolerance = 1e-9;
   int threads = 1;
 };

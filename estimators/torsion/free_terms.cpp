@@ -82,7 +82,8 @@ Result<TermDecision> decide_terms(const LinearStart& start,
                                   const std::vector<PreparedRecord>& records, FreeTerms base,
                                   AllowedTerms allowed) {
   FreeTerms all = base;
-  all.h = all.inertia = all.delay = true;
+  all.h = kModulationTerms;
+  all.inertia = all.delay = true;
   all.initial = false;
   const LinearStart probe = with_terms(start, all);
   const TorsionLayout& layout = probe.layout;
@@ -101,7 +102,7 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   decision.condition = scaled_condition(j(Eigen::all, joined(rest, h_columns)));
   decision.absorbed.push_back({"h", "f, g_inverse", cosine});
   const bool tells = decision.log_h_std <= kLogModulationLimit;
-  decision.free.h = allowed.h && tells;
+  decision.free.h = allowed.h && tells ? kModulationTerms : 0;
   decision.verdict = tells ? "identifiable" : "not_identifiable";
   decision.says = says_of(decision.log_h_std, cosine, records.size(), tells);
   if (!allowed.h) decision.notes.push_back("h = 1 was asked for");
@@ -110,7 +111,7 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   const std::vector<Candidate> candidates = {
       {"inertia", layout.inertia_group, ranges.acceleration},
       {"delay", layout.delay_group, largest_rate(records)}};
-  const auto with_h = decision.free.h ? joined(rest, h_columns) : rest;
+  const auto with_h = decision.free.h > 0 ? joined(rest, h_columns) : rest;
   for (const auto& candidate : candidates) {
     const auto own = columns_of(candidate.group);
     const Eigen::MatrixXd covariance = covariance_of(j(Eigen::all, joined(with_h, own)));

@@ -7,8 +7,7 @@
 namespace flexspline::estimators {
 
 TorsionLayout::TorsionLayout(LawSpec f, std::size_t f_size, LawSpec g_inverse, std::size_t g_size,
-                             double h_scale, std::size_t h_terms,
-                             std::vector<std::string> records, FreeTerms free)
+                             double h_scale, std::vector<std::string> records, FreeTerms free)
     : f_(std::move(f)),
       g_inverse_(std::move(g_inverse)),
       h_{.law = "bounded_modulation", .scale = h_scale, .knots = {}, .coefficients = {}},
@@ -20,7 +19,7 @@ TorsionLayout::TorsionLayout(LawSpec f, std::size_t f_size, LawSpec g_inverse, s
   };
   place(f_group, f_size);
   place(g_group, g_size);
-  place(h_group, free.h ? h_terms : 0);
+  place(h_group, free.h);
   place(inertia_group, free.inertia ? 1 : 0);
   place(delay_group, free.delay ? 1 : 0);
   place(offset_group, free.offset ? 1 : 0);
@@ -65,7 +64,7 @@ std::vector<double> TorsionLayout::carry_over(const TorsionLayout& from,
         &TorsionLayout::zero_group, &TorsionLayout::initial_group}) {
     const auto source = (from.*member).of(p);
     const auto target = (this->*member).of(std::span<double>(result));
-    if (source.size() == target.size()) std::ranges::copy(source, target.begin());
+    std::ranges::copy(source.first(std::min(source.size(), target.size())), target.begin());
   }
   return result;
 }

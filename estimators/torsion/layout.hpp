@@ -28,7 +28,7 @@ struct Group {
 /// Coefficients of f and g^-1 in Nm (N), of ln h dimensionless, inertia in Nm s2/rad, delay in s,
 /// offset in Nm, zeros and initial torsions in rad (m).
 struct FreeTerms {
-  bool h = false;
+  std::size_t h = 0;  ///< degree of ln h; 0: h = 1
   bool inertia = false;
   bool delay = false;
   bool offset = false;
@@ -39,10 +39,9 @@ struct FreeTerms {
 class TorsionLayout {
  public:
   /// Laws with their knots and scales; coefficients are not read. f_size and g_size count both
-  /// sides; h_terms is the degree of ln h.
+  /// sides.
   TorsionLayout(LawSpec f, std::size_t f_size, LawSpec g_inverse, std::size_t g_size,
-                double h_scale, std::size_t h_terms, std::vector<std::string> records,
-                FreeTerms free);
+                double h_scale, std::vector<std::string> records, FreeTerms free);
 
   std::size_t size() const { return size_; }
   const FreeTerms& free_terms() const { return free_; }
@@ -61,7 +60,7 @@ class TorsionLayout {
     return zero_group.present() ? p[zero_group.first + record] : 0.0;
   }
 
-  /// Values of another layout carried over group by group; new ones are zero.
+  /// Values of another layout carried over group by group, as far as both reach; new ones are zero.
   std::vector<double> carry_over(const TorsionLayout& from, std::span<const double> p) const;
 
   std::string name(std::size_t k) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "solvers/nonnegative.hpp"
 #include "torsion/torque_residuals.hpp"
@@ -69,8 +70,7 @@ TorsionLayout layout_for(const std::vector<PreparedRecord>& records, const Range
   for (const auto& one : records) ids.push_back(one.record.id);
   const double h_scale = ranges.motion * kMotionMargin;
   return TorsionLayout(std::move(f), f_size, g,
-                       candidate.g_sides * (velocity_knots.size() + 3), h_scale,
-                       kModulationTerms, std::move(ids), free);
+                       candidate.g_sides * (velocity_knots.size() + 3), h_scale, std::move(ids), free);
 }
 
 void start_nuisances(const TorsionLayout& layout, const std::vector<PreparedRecord>& records,
@@ -88,41 +88,70 @@ struct LinearFit {
   double criterion = kInfinity;
 };
 
-// The residual is linear in f, g^-1, inertia and offset where h = 1.
-Result<LinearFit> linear_fit(const TorsionLayout& layout,
-                             const std::vector<PreparedRecord>& records) {
-  LinearFit fit{.p = std::vector<double>(layout.size(), 0.0)};
-  start_nuisances(layout, records, fit.p);
-  const TorqueResiduals problem(layout, records);
-  const auto at = linearise(problem, fit.p);
-  if (!at) return tl::unexpected(at.error());
-
-  std::vector<Eigen::Index> linear;
-  for (const Group* group : {&layout.f_group, &layout.g_group, &layout.inertia_group,
-                             &layout.offset_group}) {
+std::vector<Eigen::Index> columns_of(std::initializer_list<const Group*> groups) {
+  std::vector<Eigen::Index> columns;
+  for (const Group* group : groups) {
     for (std::size_t k = 0; k < group->count; ++k) {
-      linear.push_back(static_cast<Eigen::Index>(group->first + k));
+      columns.push_back(static_cast<Eigen::Index>(group->first + k));
     }
   }
+  return columns;
+}
+
+// The residual is linear in f, g^-1 and offset where h = 1. `beside` holds directions of what is
+// not linear or not yet free, so that the choice of a class does not have to stand in for them.
+Result<LinearFit> linear_fit(const TorsionLayout& layout,
+                             const std::vector<PreparedRecord>& records,
+                             const Eigen::MatrixXd& beside) {
+  LinearFit fit{.p = std::vector<double>(layout.size(), 0.0)};
+  start_nuisances(layout, records, fit.p);
+  const auto at = linearise(TorqueResiduals(layout, records), fit.p);
+  if (!at) return tl::unexpected(at.error());
+
+  const auto linear = columns_of({&layout.f_group, &layout.g_group, &layout.offset_group});
   const auto bounds = bounded_parameters(layout, records, fit.p);
-  Eigen::VectorXd lower(static_cast<Eigen::Index>(linear.size()));
-  for (std::size_t k = 0; k < linear.size(); ++k) {
-    const double bound = bounds[static_cast<std::size_t>(linear[k])].lower;
-    lower[static_cast<Eigen::Index>(k)] =
-        static_cast<std::size_t>(linear[k]) < layout.g_group.first + layout.g_group.count
-            ? bound
-            : -kInfinity;
+  const auto own = static_cast<Eigen::Index>(linear.size());
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(own + beside.cols(), -kInfinity);
+  for (std::size_t k = 0; k < layout.f_group.count + layout.g_group.count; ++k) {
+    lower[static_cast<Eigen::Index>(k)] = bounds[k].lower;
   }
-  const Eigen::MatrixXd j = at->jacobian(Eigen::all, linear);
+  Eigen::MatrixXd j(at->jacobian.rows(), own + beside.cols());
+  j.leftCols(own) = at->jacobian(Eigen::all, linear);
+  j.rightCols(beside.cols()) = beside;
   const Eigen::VectorXd x =
       bounded_least_squares(j.transpose() * j, -(j.transpose() * at->residual), lower);
-  for (std::size_t k = 0; k < linear.size(); ++k) {
-    fit.p[static_cast<std::size_t>(linear[k])] += x[static_cast<Eigen::Index>(k)];
+  for (Eigen::Index k = 0; k < own; ++k) {
+    fit.p[static_cast<std::size_t>(linear[static_cast<std::size_t>(k)])] += x[k];
   }
   const double n = static_cast<double>(at->residual.size());
   const double rss = (at->residual + j * x).squaredNorm();
   fit.criterion = n * std::log(rss / n) + static_cast<double>(linear.size()) * std::log(n);
   return fit;
+}
+
+// Directions of ln h, inertia, delay and zeros at a fit of the richest class.
+Result<Eigen::MatrixXd> directions_beside(const std::vector<PreparedRecord>& records,
+                                          const Ranges& ranges, FreeTerms free) {
+  const auto rows = static_cast<Eigen::Index>(
+      std::accumulate(records.begin(), records.end(), std::size_t{0},
+                      [](std::size_t sum, const auto& one) { return sum + one.rows.size(); }));
+  if (records.front().record.travels) return Eigen::MatrixXd(rows, 0);
+  const Candidate richest{2, 2, &kVelocityKnots.front()};
+  const TorsionLayout plain = layout_for(records, ranges, richest, free);
+  auto fit = linear_fit(plain, records, Eigen::MatrixXd(rows, 0));
+  if (!fit) return tl::unexpected(fit.error());
+  FreeTerms all = free;
+  all.h = kModulationTerms;
+  all.inertia = all.delay = true;
+  const LinearStart probe = with_terms({plain, fit->p}, all);
+  const auto at = linearise(TorqueResiduals(probe.layout, records), probe.p);
+  if (!at) return tl::unexpected(at.error());
+  const auto& layout = probe.layout;
+  Eigen::MatrixXd beside = at->jacobian(
+      Eigen::all, columns_of({&layout.h_group, &layout.inertia_group, &layout.delay_group,
+                              &layout.zero_group}));
+  beside.colwise().normalize();
+  return beside;
 }
 
 }  // namespace
@@ -154,12 +183,14 @@ std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
 
 Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, FreeTerms free) {
   const Ranges ranges = ranges_of(records, free.zeros);
+  const auto beside = directions_beside(records, ranges, free);
+  if (!beside) return tl::unexpected(beside.error());
   std::optional<LinearStart> best;
   double criterion = kInfinity;
   for (const auto& candidate : candidates()) {
     if (records.front().record.travels && candidate.f_sides == 2) continue;
     TorsionLayout layout = layout_for(records, ranges, candidate, free);
-    auto fit = linear_fit(layout, records);
+    auto fit = linear_fit(layout, records, *beside);
     if (!fit) return tl::unexpected(fit.error());
     if (!best || fit->criterion < criterion) {
       criterion = fit->criterion;
@@ -174,7 +205,7 @@ LinearStart with_terms(const LinearStart& start, FreeTerms free) {
   const LawSpec f = old.f(start.p);
   const LawSpec g = old.g_inverse(start.p);
   TorsionLayout layout(f, old.f_group.count, g, old.g_group.count, old.h(start.p).scale,
-                       kModulationTerms, old.records(), free);
+                       old.records(), free);
   auto p = layout.carry_over(old, start.p);
   return {std::move(layout), std::move(p)};
 }

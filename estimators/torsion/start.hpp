@@ -24,7 +24,8 @@ Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, Fre
 /// A layout with the same laws and other free terms, and its parameters.
 LinearStart with_terms(const LinearStart& start, FreeTerms free);
 
-/// Degree of ln h.
+/// Largest and smallest degree of ln h where it is free.
 inline constexpr std::size_t kModulationTerms = 4;
+inline constexpr std::size_t kFewestModulationTerms = 2;
 
 }  // namespace flexspline::estimators
