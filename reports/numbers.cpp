@@ -26,8 +26,8 @@ std::string digits(double value, int count) {
   const double size = std::abs(rounded(value, count));
   if (size < 1e-3 || size >= 1e6) return fmt::format("{:.{}e}", value, count - 1);
   const int magnitude = static_cast<int>(std::floor(std::log10(size)));
-  return fmt::format("{:.{}f}", rounded(value, std::max(count, magnitude + 1)),
-                     std::max(0, count - 1 - magnitude));
+  const int kept = magnitude < count ? count : std::max(count, 3);
+  return fmt::format("{:.{}f}", rounded(value, kept), std::max(0, count - 1 - magnitude));
 }
 
 std::string compact(double value, int count) {
@@ -36,6 +36,14 @@ std::string compact(double value, int count) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
+}
+
+std::pair<double, double> widened(double lower, double upper, double share) {
+  const double margin = share * (upper - lower);
+  if (!(margin > 0.0)) return {lower, upper};
+  const double step = std::pow(10.0, std::floor(std::log10(margin)));
+  return {rounded(std::floor((lower - margin) / step) * step, 6),
+          rounded(std::ceil((upper + margin) / step) * step, 6)};
 }
 
 std::vector<double> thinned(const std::vector<double>& values, std::size_t most) {

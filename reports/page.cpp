@@ -84,18 +84,40 @@ bool is_small(const Block& block) {
          figure->frames.front().panels.size() == 1;
 }
 
+/// Opens and closes what neighbouring blocks share: a row of small figures, or a fold.
+class Wrapping {
+ public:
+  std::string before(const Block& block) {
+    const std::string wanted =
+        is_small(block) ? "<div class=\"row\">\n"
+        : block.folded_under.empty()
+            ? std::string{}
+            : "<details><summary>" + escaped(block.folded_under) + "</summary>\n";
+    if (wanted == open_) return {};
+    const std::string html = close() + wanted;
+    open_ = wanted;
+    return html;
+  }
+
+  std::string close() {
+    const std::string html = open_.empty()               ? ""
+                             : open_.starts_with("<div") ? "</div>\n"
+                                                         : "</details>\n";
+    open_.clear();
+    return html;
+  }
+
+ private:
+  std::string open_;
+};
+
 std::string blocks_html(const std::vector<Block>& blocks) {
   std::string html;
-  bool in_row = false;
+  Wrapping wrapping;
   for (const Block& block : blocks) {
-    if (is_small(block) != in_row) html += in_row ? "</div>\n" : "<div class=\"row\">\n";
-    in_row = is_small(block);
-    const std::string content = std::visit(ContentHtml{}, block.content);
-    html += block.folded_under.empty() ? content
-                                       : "<details><summary>" + escaped(block.folded_under) +
-                                             "</summary>\n" + content + "</details>\n";
+    html += wrapping.before(block) + std::visit(ContentHtml{}, block.content);
   }
-  return in_row ? html + "</div>\n" : html;
+  return html + wrapping.close();
 }
 
 std::string links_html(const std::vector<Section>& sections) {

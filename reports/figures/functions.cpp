@@ -24,15 +24,40 @@ bool valid_at(const Band& band, double argument) {
   return !(argument < band.valid_from) && !(argument > band.valid_to);
 }
 
-void add_estimator(Panel& panel, Extent& extent, const EstimatorView& estimator, const Band& band) {
+constexpr std::size_t kBandPoints = 81;
+
+Band thinned_band(Band band) {
+  for (auto* series : {&band.argument, &band.value, &band.lower, &band.upper}) {
+    *series = thinned(*series, kBandPoints);
+  }
+  return band;
+}
+
+/// What has to be in view: the values within the domains, and bands as far as they do not dwarf
+/// them.
+struct View {
+  Extent values, bands;
+
+  std::pair<double, double> range() const {
+    const double span = std::max(values.upper - values.lower, 0.02 * std::abs(values.upper));
+    return widened(std::clamp(bands.lower, values.lower - span, values.lower),
+                   std::clamp(bands.upper, values.upper, values.upper + span), 0.15);
+  }
+};
+
+void add_estimator(Panel& panel, View& extent, const EstimatorView& estimator, const Band& whole) {
   const Role role = role_of(estimator);
+  const Band band = thinned_band(whole);
   if (band.lower.size() == band.argument.size() && band.upper.size() == band.argument.size()) {
     panel.series.push_back(
         {estimator.id + ", 95 %", "band", role, band.argument, band.value, band.lower, band.upper});
   }
   panel.series.push_back({estimator.id, "line", role, band.argument, band.value, {}, {}});
   for (std::size_t i = 0; i < band.argument.size() && i < band.value.size(); ++i) {
-    if (valid_at(band, band.argument[i])) extent.take(band.value[i]);
+    if (!valid_at(band, band.argument[i])) continue;
+    extent.values.take(band.value[i]);
+    if (i < band.lower.size()) extent.bands.take(band.lower[i]);
+    if (i < band.upper.size()) extent.bands.take(band.upper[i]);
   }
 }
 
@@ -57,12 +82,12 @@ std::string argument_label(const std::string& function, const std::string& unit)
 Panel function_panel(const StudyView& view, const Input& input, const std::string& function) {
   Panel panel;
   panel.title = function_label(function);
-  Extent extent;
+  View extent;
   const auto truth = input.truth.find(function);
   if (truth != input.truth.end() && !truth->second.argument.empty()) {
     panel.series.push_back(
         {"truth", "line", {"truth", 0}, truth->second.argument, truth->second.value, {}, {}});
-    for (const double value : truth->second.value) extent.take(value);
+    for (const double value : truth->second.value) extent.values.take(value);
   }
   for (const EstimatorView& estimator : view.estimators()) {
     const Case* item = view.find(input, estimator);
@@ -73,10 +98,7 @@ Panel function_panel(const StudyView& view, const Input& input, const std::strin
     add_estimator(panel, extent, estimator, *band);
     add_marks(panel, *band, estimator.id);
   }
-  const double margin = 0.25 * (extent.upper - extent.lower);
-  if (margin > 0.0) {
-    panel.y.range = {rounded(extent.lower - margin, 2), rounded(extent.upper + margin, 2)};
-  }
+  if (extent.values.lower <= extent.values.upper) panel.y.range = extent.range();
   return panel;
 }
 

@@ -11,14 +11,16 @@ namespace {
 using Number = double InputRecording::*;
 
 /// Half height over `along`, one line for each value of `each`.
-Panel panel_over(const Input& input, Number along, const std::string& along_label, Number each,
-                 const std::string& each_name, const std::string& each_unit) {
+Panel panel_over(const StudyView& view, const Input& input, Number along,
+                 const std::string& along_label, Number each, const std::string& each_name,
+                 const std::string& each_unit) {
   std::map<double, std::map<double, double>> lines;
-  for (const InputRecording& recording : input.recordings) {
-    if (!std::isfinite(recording.half_height) || !std::isfinite(recording.*along)) continue;
-    if (!std::isfinite(recording.*each)) continue;
-    lines[recording.*each][recording.*along] = recording.half_height;
+  for (const InputRecording* recording : view.places(input)) {
+    if (!std::isfinite(recording->half_height) || !std::isfinite(recording->*along)) continue;
+    if (!std::isfinite(recording->*each)) continue;
+    lines[recording->*each][recording->*along] = recording->half_height;
   }
+  std::erase_if(lines, [](const auto& line) { return line.second.size() < 2; });
   Panel panel;
   panel.x.label = along_label;
   panel.y.label = "half height / " + input.units.effort;
@@ -40,10 +42,7 @@ Panel panel_over(const Input& input, Number along, const std::string& along_labe
   return panel;
 }
 
-bool has_a_line(const Panel& panel) {
-  return std::any_of(panel.series.begin(), panel.series.end(),
-                     [](const Series& series) { return series.x.size() > 1; });
-}
+bool has_a_line(const Panel& panel) { return !panel.series.empty(); }
 
 }  // namespace
 
@@ -58,9 +57,9 @@ Figure half_height_figure(const StudyView& view) {
   figure.pickers = {"input"};
   for (const Input& input : view.artefacts().inputs) {
     const std::string& unit = input.units.motion;
-    Panel amplitude = panel_over(input, &InputRecording::amplitude, "amplitude / " + unit,
+    Panel amplitude = panel_over(view, input, &InputRecording::amplitude, "amplitude / " + unit,
                                  &InputRecording::frequency_hz, "at", "Hz");
-    Panel frequency = panel_over(input, &InputRecording::frequency_hz, "frequency / Hz",
+    Panel frequency = panel_over(view, input, &InputRecording::frequency_hz, "frequency / Hz",
                                  &InputRecording::amplitude, "at", unit);
     amplitude.title = "against amplitude";
     frequency.title = "against frequency";

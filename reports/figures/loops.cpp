@@ -7,7 +7,7 @@
 namespace flexspline::reports {
 namespace {
 
-constexpr std::size_t kNumbersInLoopPicker = 130'000;
+constexpr std::size_t kNumbersInLoopPicker = 160'000;
 
 struct Range {
   double lower = 0.0;
@@ -29,16 +29,16 @@ void keep_measured_in_view(Panel& panel, const std::string& unit) {
   const Range measured = range_of(panel.series.front().y);
   const double span = measured.upper - measured.lower;
   if (!(span > 0.0)) return;
-  const Range shown{measured.lower - 0.6 * span, measured.upper + 0.6 * span};
+  const auto [lower, upper] = widened(measured.lower, measured.upper, 0.6);
   double largest = 0.0;
   for (const Series& series : panel.series) {
     const Range all = range_of(series.y);
-    if (all.lower < shown.lower || all.upper > shown.upper) {
+    if (all.lower < lower || all.upper > upper) {
       largest = std::max({largest, std::abs(all.lower), std::abs(all.upper)});
     }
   }
   if (largest == 0.0) return;
-  panel.y.range = {rounded(shown.lower, 2), rounded(shown.upper, 2)};
+  panel.y.range = {lower, upper};
   panel.title += " (cut: a simulated loop reaches " + digits(largest, 2) + " " + unit + ")";
 }
 

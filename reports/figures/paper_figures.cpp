@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
@@ -30,6 +32,19 @@ double odd_polynomial(const std::vector<double>& c, double x) {
   return value * x;
 }
 
+/// Names that artefacts spell out, as a reader of the paper knows them.
+std::string typeset(std::string text) {
+  const std::pair<std::string_view, std::string_view> spelt[] = {
+      {"g^-1", "g⁻¹"}, {"phi'", "φ′"}, {"phi", "φ"}, {"theta_1", "θ₁"}, {"tau", "τ"}};
+  for (const auto& [plain, symbol] : spelt) {
+    for (std::size_t at = 0; (at = text.find(plain, at)) != std::string::npos;) {
+      text.replace(at, plain.size(), symbol);
+      at += symbol.size();
+    }
+  }
+  return text;
+}
+
 Panel beyond_panel(const std::vector<double>& c, double range, const std::string& title,
                    const std::string& x_label, const std::string& y_label) {
   Panel panel;
@@ -53,7 +68,7 @@ Panel beyond_panel(const std::vector<double>& c, double range, const std::string
   }
   panel.series = {std::move(inside), std::move(beyond)};
   panel.marks = {{rounded(range, 4), "end of the fitted loop"}};
-  panel.y.range = {rounded(-3.0 * peak, 2), rounded(2.0 * peak, 2)};
+  panel.y.range = widened(-3.0 * peak, 2.0 * peak, 0.05);
   return panel;
 }
 
@@ -81,12 +96,13 @@ Figure table_one_figure(const Paper& paper) {
 Figure paper_figure(const PaperFigure& from) {
   Figure figure;
   figure.id = slug(from.id);
-  figure.title = from.title;
-  figure.caption = from.says;
+  const std::string number = from.id.starts_with("figure_") ? from.id.substr(7) : std::string{};
+  figure.title = number.empty() ? from.title : "Figure " + number + ": " + from.title;
+  figure.caption = typeset(from.says);
   figure.alt = from.title + ": " + from.y_label + " over " + from.x_label + ".";
   Panel panel;
-  panel.x.label = from.x_label;
-  panel.y.label = from.y_label;
+  panel.x.label = typeset(from.x_label);
+  panel.y.label = typeset(from.y_label);
   int rank = 0;
   for (const PaperSeries& series : from.series) {
     panel.series.push_back({series.name,

@@ -105,7 +105,7 @@ std::optional<Section> draw(const StudyView& view) {
                identifiability_table(view));
   for (const Input& input : view.artefacts().inputs) {
     Table table = parameter_table(view, input);
-    if (!table.rows.empty()) section.fold("Parameters: " + input.title, std::move(table));
+    if (!table.rows.empty()) section.fold("Parameters with 95 % intervals", std::move(table));
   }
   return section;
 }

@@ -122,7 +122,7 @@ std::optional<Section> draw(const StudyView& view) {
     }
     for (const Input& input : inputs) {
       if (is_rate_independent(input)) continue;
-      section.fold("Error by recording: " + input.title, by_recording(view, input));
+      section.fold("Error by recording on the other inputs", by_recording(view, input));
     }
   }
   if (section.blocks.empty()) return std::nullopt;

@@ -102,6 +102,8 @@ function logRange(axis: Axis, values: number[]): Option {
   return { min: Math.min(...values) / 1.25, max: Math.max(...values) * 1.25 };
 }
 
+const categoryWidth = () => (window.innerWidth < 600 ? 96 : 150);
+
 function axisOption(axis: Axis, values: number[], other: Option): Option {
   const colours = theme();
   const common = {
@@ -114,7 +116,7 @@ function axisOption(axis: Axis, values: number[], other: Option): Option {
     ...other,
   };
   if (axis.categories) {
-    const label = { color: colours.text, fontSize: 11, width: 96, overflow: "truncate", interval: 0 };
+    const label = { color: colours.text, fontSize: 11, width: categoryWidth(), overflow: "truncate", interval: 0 };
     return { ...common, type: "category", data: axis.categories, axisLabel: label };
   }
   return {
@@ -178,7 +180,7 @@ export function linesOption(panel: Panel): Option {
   return {
     animation: false,
     textStyle: { color: colours.text, fontFamily: kFont },
-    grid: { left: overCategories ? 108 : 62, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74, outerBoundsMode: "none" },
+    grid: { left: overCategories ? categoryWidth() + 12 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74, outerBoundsMode: "none" },
     legend: legendOption(panel),
     tooltip: {
       trigger: overCategories ? "item" : "axis",
@@ -194,7 +196,7 @@ export function linesOption(panel: Panel): Option {
       { type: "inside", yAxisIndex: 0, filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseWheel: false },
     ],
     xAxis: axisOption(panel.x, xs, { nameGap: 26 }),
-    yAxis: axisOption(panel.y, [], { nameGap: overCategories ? 12 : 46, inverse: overCategories }),
+    yAxis: axisOption(panel.y, [], { nameGap: overCategories ? 12 : 56, inverse: overCategories }),
     series,
   };
 }
