@@ -107,6 +107,7 @@ EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study) {
   estimator.title = section.text("title").value_or(estimator.id);
   estimator.method = section.required_text("method");
   estimator.train = section.text("train").value_or(estimator.train);
+  estimator.steady = section.flag("steady").value_or(false);
   estimator.inputs = section.texts("inputs");
   check_grid(section, "train", estimator.train, study, {kTrainAll, kTrainOne});
   estimator.options = read_options(section, check_method(section, estimator.method));

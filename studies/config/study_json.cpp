@@ -59,6 +59,7 @@ ordered_json to_json(const StudyConfig& study) {
                     {"title", row.title},
                     {"method", row.method},
                     {"train", row.train},
+                    {"steady", row.steady},
                     {"options", to_json(row.options)},
                     {"inputs", row.inputs}});
   }

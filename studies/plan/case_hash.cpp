@@ -23,6 +23,7 @@ std::string case_hash(const StudyPlan& plan, const CasePlan& one, const std::str
                              {"key", one.key},
                              {"recordings", recordings_json(plan, *one.input, one.seed)},
                              {"train", one.train},
+                             {"steady", one.estimator->steady},
                              {"holdout", one.holdout},
                              {"method", one.estimator->method},
                              {"options", to_json(one.estimator->options)}};

@@ -9,13 +9,26 @@ namespace {
 
 CaseOutcome failed(Error error) { return {tl::unexpected(std::move(error)), {}}; }
 
+/// The recording as the estimator gets it.
+TorsionRecord training_record(const StudyRecording& recording, const EstimatorConfig& estimator) {
+  TorsionRecord record = recording.record;
+  if (!estimator.steady || !recording.truth || !record.frequency_hz) return record;
+  const double steady_from = record.time.front() + 1.0 / *record.frequency_hz;
+  for (std::size_t i = 0; i < record.time.size() && record.time[i] < steady_from; ++i) {
+    record.valid[i] = false;
+  }
+  return record;
+}
+
 /// A fit that ended without a result is a failure, whatever numbers it left.
 Result<Estimate> estimate_of(const CasePlan& plan, const PreparedInput& input) {
   const auto method = estimators::find_method(plan.estimator->method);
   if (!method) return tl::unexpected(method.error());
   estimators::FitProblem problem;
   problem.options = plan.estimator->options;
-  for (const std::string& id : plan.train) problem.records.push_back(input.find(id)->record);
+  for (const std::string& id : plan.train) {
+    problem.records.push_back(training_record(*input.find(id), *plan.estimator));
+  }
   Result<Estimate> estimate = (*method)->fit(problem);
   if (!estimate) return estimate;
   if (estimate->termination == Termination::not_run ||

@@ -57,6 +57,7 @@ struct EstimatorConfig {
   std::string title;
   std::string method;
   std::string train = std::string(kTrainAll);  ///< id of a grid, or kTrainAll, or kTrainOne
+  bool steady = false;  ///< bench: no residuals in the run-up, which only carries the state along
   estimators::Options options;
   std::vector<std::string> inputs;  ///< only these; empty: all
 };
