@@ -221,13 +221,15 @@ Result<Estimate> fit(const FitProblem& problem) {
                              .inertia = !travels && word(problem, method, "inertia") == "auto",
                              .delay = !travels && word(problem, method, "delay") == "auto"};
   const FreeTerms base = base_terms(*records);
-  const auto start = linear_start(*records, base);
-  if (!start) return tl::unexpected(start.error());
-  if (auto added = add_motion_noise(*records, *start); !added) {
+  const auto richest = richest_start(*records, base);
+  if (!richest) return tl::unexpected(richest.error());
+  if (auto added = add_motion_noise(*records, *richest); !added) {
     return tl::unexpected(added.error());
   }
-  const auto decision = decide_terms(*start, *records, base, allowed);
+  const auto decision = decide_terms(*richest, *records, base, allowed);
   if (!decision) return tl::unexpected(decision.error());
+  const auto start = chosen_start(*records, base, *richest, decision->free);
+  if (!start) return tl::unexpected(start.error());
 
   const SolverSettings settings{
       .max_iterations = static_cast<int>(number(problem, method, "iterations"))};

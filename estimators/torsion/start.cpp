@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "solvers/nonnegative.hpp"
 #include "torsion/torque_residuals.hpp"
@@ -21,7 +20,7 @@ constexpr std::size_t kTravelIntervals = 24;
 const std::vector<double> kMotionKnots = {0.25, 0.5, 0.75};
 // Even in steps of the eye, and in decades: dry friction turns close to zero speed.
 const std::vector<std::vector<double>> kVelocityKnots = {
-    {0.08, 0.2, 0.4, 0.7}, {0.004, 0.012, 0.035, 0.1, 0.3, 0.6}};
+    {0.08, 0.2, 0.4, 0.7}, {0.004, 0.012, 0.035, 0.08, 0.2, 0.4, 0.7}};
 
 // One choice among the classes of f and g^-1.
 struct Candidate {
@@ -129,25 +128,20 @@ Result<LinearFit> linear_fit(const TorsionLayout& layout,
   return fit;
 }
 
-// Directions of ln h, inertia, delay and zeros at a fit of the richest class.
+Eigen::Index rows_of(const std::vector<PreparedRecord>& records) {
+  std::size_t rows = 0;
+  for (const auto& one : records) rows += one.rows.size();
+  return static_cast<Eigen::Index>(rows);
+}
+
+// Directions of ln h, inertia, delay and zeros at a start, as far as they will be free.
 Result<Eigen::MatrixXd> directions_beside(const std::vector<PreparedRecord>& records,
-                                          const Ranges& ranges, FreeTerms free) {
-  const auto rows = static_cast<Eigen::Index>(
-      std::accumulate(records.begin(), records.end(), std::size_t{0},
-                      [](std::size_t sum, const auto& one) { return sum + one.rows.size(); }));
-  if (records.front().record.travels) return Eigen::MatrixXd(rows, 0);
-  const Candidate richest{2, 2, &kVelocityKnots.front()};
-  const TorsionLayout plain = layout_for(records, ranges, richest, free);
-  auto fit = linear_fit(plain, records, Eigen::MatrixXd(rows, 0));
-  if (!fit) return tl::unexpected(fit.error());
-  FreeTerms all = free;
-  all.h = kModulationTerms;
-  all.inertia = all.delay = true;
-  const LinearStart probe = with_terms({plain, fit->p}, all);
-  const auto at = linearise(TorqueResiduals(probe.layout, records), probe.p);
-  if (!at) return tl::unexpected(at.error());
+                                          const LinearStart& at, FreeTerms free) {
+  const LinearStart probe = with_terms(at, free);
   const auto& layout = probe.layout;
-  Eigen::MatrixXd beside = at->jacobian(
+  const auto linear = linearise(TorqueResiduals(layout, records), probe.p);
+  if (!linear) return tl::unexpected(linear.error());
+  Eigen::MatrixXd beside = linear->jacobian(
       Eigen::all, columns_of({&layout.h_group, &layout.inertia_group, &layout.delay_group,
                               &layout.zero_group}));
   beside.colwise().normalize();
@@ -181,15 +175,26 @@ std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
   return result;
 }
 
-Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, FreeTerms free) {
-  const Ranges ranges = ranges_of(records, free.zeros);
-  const auto beside = directions_beside(records, ranges, free);
+Result<LinearStart> richest_start(const std::vector<PreparedRecord>& records, FreeTerms base) {
+  const Ranges ranges = ranges_of(records, base.zeros);
+  const bool travels = records.front().record.travels;
+  TorsionLayout layout = layout_for(records, ranges,
+                                    {travels ? std::size_t{1} : 2, 2, &kVelocityKnots.front()}, base);
+  auto fit = linear_fit(layout, records, Eigen::MatrixXd(rows_of(records), 0));
+  if (!fit) return tl::unexpected(fit.error());
+  return LinearStart{std::move(layout), std::move(fit->p)};
+}
+
+Result<LinearStart> chosen_start(const std::vector<PreparedRecord>& records, FreeTerms base,
+                                 const LinearStart& richest, FreeTerms beside_terms) {
+  const Ranges ranges = ranges_of(records, base.zeros);
+  const auto beside = directions_beside(records, richest, beside_terms);
   if (!beside) return tl::unexpected(beside.error());
   std::optional<LinearStart> best;
   double criterion = kInfinity;
   for (const auto& candidate : candidates()) {
     if (records.front().record.travels && candidate.f_sides == 2) continue;
-    TorsionLayout layout = layout_for(records, ranges, candidate, free);
+    TorsionLayout layout = layout_for(records, ranges, candidate, base);
     auto fit = linear_fit(layout, records, *beside);
     if (!fit) return tl::unexpected(fit.error());
     if (!best || fit->criterion < criterion) {

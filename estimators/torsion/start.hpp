@@ -12,14 +12,21 @@ std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
                                                  const std::vector<PreparedRecord>& records,
                                                  std::span<const double> p);
 
-/// Laws for these records: f and g^-1 monotone (f free where the motion travels), each odd or with
-/// two sides of its own, g^-1 with knots in even steps or in decades, as the Bayesian criterion
-/// prefers; and where the linear least squares of eq. (4) with h = 1 puts them.
+/// A layout, and where linear least squares puts its f, g^-1 and offset with h = 1.
 struct LinearStart {
   TorsionLayout layout;
   std::vector<double> p;
 };
-Result<LinearStart> linear_start(const std::vector<PreparedRecord>& records, FreeTerms free);
+
+/// f and g^-1 monotone with two sides each (f free where the motion travels).
+Result<LinearStart> richest_start(const std::vector<PreparedRecord>& records, FreeTerms base);
+
+/// f and g^-1 each odd or with two sides of its own, g^-1 with knots in even steps or in decades,
+/// as the Bayesian criterion of eq. (4) prefers. The directions of the terms that will be free
+/// beside them, taken at the richest start, compete in it, so that a class is not chosen to stand in
+/// for one of them.
+Result<LinearStart> chosen_start(const std::vector<PreparedRecord>& records, FreeTerms base,
+                                 const LinearStart& richest, FreeTerms beside);
 
 /// A layout with the same laws and other free terms, and its parameters.
 LinearStart with_terms(const LinearStart& start, FreeTerms free);
