@@ -41,7 +41,7 @@ struct View {
   std::pair<double, double> range() const {
     const double span = std::max(values.upper - values.lower, 0.02 * std::abs(values.upper));
     return widened(std::clamp(bands.lower, values.lower - span, values.lower),
-                   std::clamp(bands.upper, values.upper, values.upper + span), 0.15);
+                   std::clamp(bands.upper, values.upper, values.upper + span), 0.3);
   }
 };
 

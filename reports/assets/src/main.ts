@@ -27,7 +27,12 @@ class DrawnFigure {
     addDownloads(figure.id, controls, () => this.frame.panels, () => [...this.panels.querySelectorAll("svg")]);
     if (figure.kind === "heatmap" && figure.scale) this.panels.before(scaleStrip(figure.scale));
     this.layOut();
-    new ResizeObserver(() => this.charts.forEach((chart) => chart.resize())).observe(this.panels);
+    new ResizeObserver(() => this.fit()).observe(this.panels);
+  }
+
+  /** A place without a width (not laid out yet, or hidden) keeps the picture it has. */
+  private fit(): void {
+    if (this.panels.clientWidth > 0) this.charts.forEach((chart) => chart.resize());
   }
 
   /** Space for every panel, so that the page does not jump when they are drawn. */

@@ -31,16 +31,23 @@ async function checkFigure(page, figure, at) {
   return id;
 }
 
-/** Moves over the middle of the first panel until a tooltip with text shows. */
+/** Centres of the symbols of a scatter; a few places in the middle of any other chart. */
+function placesToHover(chart) {
+  const box = chart.getBoundingClientRect();
+  const symbols = [...chart.querySelectorAll("svg path")].map((path) => path.getBoundingClientRect());
+  const small = symbols.filter((one) => one.width > 7 && one.width < 16 && Math.abs(one.width - one.height) < 3 && one.bottom < box.bottom - 60);
+  const middle = [[0.5, 0.4], [0.6, 0.5], [0.7, 0.2], [0.35, 0.62]].map(([x, y]) => [box.x + x * box.width, box.y + y * box.height]);
+  return [...small.slice(0, 3).map((one) => [one.x + one.width / 2, one.y + one.height / 2]), ...middle];
+}
+
 async function checkHover(page, figure, id, at) {
-  const box = await figure.locator(".chart").first().boundingBox();
-  for (const [x, y] of [[0.5, 0.4], [0.45, 0.3], [0.6, 0.5], [0.7, 0.2], [0.35, 0.62]]) {
-    await page.mouse.move(box.x + x * box.width, box.y + y * box.height, { steps: 3 });
+  for (const [x, y] of await figure.locator(".chart").first().evaluate(placesToHover)) {
+    await page.mouse.move(x, y, { steps: 3 });
     await page.waitForTimeout(120);
     const text = await figure.locator(".chart > div").allInnerTexts();
     if (text.some((one) => /\d/.test(one))) return;
   }
-  check(id === "error-overview", `${at}: hovering over ${id} shows no tooltip`);
+  check(false, `${at}: hovering over ${id} shows no tooltip`);
 }
 
 const pictureOf = (figure) => figure.locator(".chart svg").first().evaluate((svg) => svg.innerHTML);
@@ -84,6 +91,9 @@ async function visit(browser, url, width, scheme) {
     await checkPickers(figure, id, at);
   }
   await checkLayout(page, at);
+  const misfit = await page.evaluate(() =>
+    [...document.querySelectorAll(".chart")].filter((one) => one.querySelector("svg").getAttribute("width") !== String(one.clientWidth)).length);
+  check(misfit === 0, `${at}: ${misfit} charts are not as wide as their place`);
   await page.evaluate(() => scrollTo(0, 0));
   await page.mouse.move(1, 1);
   await page.screenshot({ path: join(work, `report-${width}-${scheme}.png`), fullPage: true });
