@@ -92,6 +92,22 @@ bool is_numeric(const Table& table, std::size_t column) {
 
 }  // namespace
 
+Table without_empty_columns(Table table) {
+  const auto is_absent = [](const Cell& cell) {
+    const auto* number = std::get_if<double>(&cell);
+    return number != nullptr && !std::isfinite(*number);
+  };
+  for (std::size_t i = table.columns.size(); i-- > 0;) {
+    const bool empty = std::all_of(table.rows.begin(), table.rows.end(),
+                                   [&](const auto& row) { return is_absent(row[i]); });
+    if (!empty) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    table.columns.erase(table.columns.begin() + at);
+    for (auto& row : table.rows) row.erase(row.begin() + at);
+  }
+  return table;
+}
+
 std::string shown(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   const double value = std::get<double>(cell);

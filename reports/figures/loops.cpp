@@ -109,7 +109,8 @@ Figure loops_figure(const StudyView& view) {
   figure.caption =
       "Step away from the training loop, in amplitude or in frequency, and watch which line stays "
       "on "
-      "the measured one. Drag or pinch to zoom; a click in the legend hides a line.";
+      "the measured one. Ctrl and the wheel zoom, or two fingers; a click in the legend hides a "
+      "line.";
   figure.alt = "Hysteresis loops at every amplitude and frequency: measured and simulated.";
   figure.pickers = view.on_grid() ? std::vector<std::string>{"input", "amplitude", "frequency"}
                                   : std::vector<std::string>{"input", "recording"};

@@ -88,10 +88,11 @@ std::string verdict_of(const StudyView& view) {
     if (item.band("h") != nullptr) ++with_h;
     if (item.verdict == "weak" || item.verdict == "not_identifiable") ++weak;
   }
-  return "Of " + std::to_string(done) + " fits, " + std::to_string(with_h) +
-         " could tell h from f and g⁻¹ and show it; in " + std::to_string(weak) +
-         " the recordings do not determine everything that was asked of them, and the reasons are "
-         "below.";
+  const std::string text = "Of " + std::to_string(done) + (done == 1 ? " fit, " : " fits, ") +
+                           std::to_string(with_h) + " could tell h from f and g⁻¹ and show it";
+  if (weak == 0) return text + ".";
+  return text + "; in " + std::to_string(weak) +
+         " the method or its recordings do not determine h, and the reasons are below.";
 }
 
 std::optional<Section> draw(const StudyView& view) {

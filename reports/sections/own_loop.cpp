@@ -80,7 +80,7 @@ std::optional<Section> draw(const StudyView& view) {
   if (const std::string verdict = verdict_of(view); !verdict.empty()) section.add(Verdict{verdict});
   Figure figure = own_loop_figure(view);
   if (!figure.frames.empty()) section.add(std::move(figure));
-  if (!view.principal().empty()) section.add(side_by_side(view));
+  if (!view.principal().empty()) section.add(without_empty_columns(side_by_side(view)));
   section.fold("Every estimator on this loop", in_full(view));
   return section;
 }

@@ -33,6 +33,13 @@ TEST(Table, LatexEscapesWhatItWouldTakeForCommands) {
   EXPECT_NE(latex.find("\\begin{tabular}{lr}"), std::string::npos);
 }
 
+TEST(Table, LosesColumnsOfNumbersThatDoNotExist) {
+  Table table = example();
+  table.rows[0][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(csv_of(without_empty_columns(table)), "input\n\"a \"\"quoted\"\", name\"\nb|c_d\n");
+  EXPECT_EQ(csv_of(without_empty_columns(example())), csv_of(example()));
+}
+
 TEST(Numbers, AreShownWithTheDigitsAskedForAndNeverAsZeroWhenAbsent) {
   EXPECT_EQ(digits(16.5412, 4), "16.54");
   EXPECT_EQ(digits(9.996, 3), "10.0");
@@ -51,6 +58,20 @@ TEST(Numbers, ThinningKeepsBothEnds) {
     EXPECT_EQ(kept.front(), 0.0);
     EXPECT_EQ(kept.back(), 99.0);
   }
+}
+
+TEST(Numbers, RangesOfAxesAreRoundAndHoldTheirData) {
+  const auto [lower, upper] = widened(0.957, 1.003, 0.3);
+  EXPECT_LE(lower, 0.957);
+  EXPECT_GE(upper, 1.003);
+  EXPECT_DOUBLE_EQ(lower, 0.94);
+  EXPECT_DOUBLE_EQ(upper, 1.02);
+}
+
+TEST(Numbers, LabelsHaveNoZerosAtTheEnd) {
+  EXPECT_EQ(compact(0.2, 4), "0.2");
+  EXPECT_EQ(compact(200.0, 3), "200");
+  EXPECT_EQ(compact(8.0, 6), "8");
 }
 
 TEST(Numbers, SlugsAreFileNames) {

@@ -48,7 +48,7 @@ function axisOption(label: string, categories: string[] | undefined, gap: number
     axisLine: { show: false },
     axisTick: { show: false },
     splitLine: { show: false },
-    axisLabel: { color: colours.text, fontSize: 11, interval: 0, width: 110, overflow: "truncate" },
+    axisLabel: { color: colours.text, fontSize: 11, interval: 0, width: window.innerWidth < 600 ? 90 : 160, overflow: "truncate" },
   };
 }
 

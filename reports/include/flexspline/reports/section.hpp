@@ -29,7 +29,8 @@ struct Listing {
 
 using Content = std::variant<Verdict, Paragraph, Figure, Table, Listing>;
 
-/// A piece of a section; folded pieces wait behind their summary, neighbours of one summary together.
+/// A piece of a section; folded pieces wait behind their summary, neighbours of one summary
+/// together.
 struct Block {
   Content content;
   std::string folded_under;  ///< summary of the fold; empty: shown at once

@@ -23,6 +23,9 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
+/// The table without columns of numbers none of which exists.
+Table without_empty_columns(Table table);
+
 /// RFC 4180; names with their units in the first line; numbers in full.
 std::string csv_of(const Table& table);
 /// GitHub's Markdown, with a row of units.
