@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/reports/report.hpp"
+#include "flexspline/studies/results.hpp"
 #include "stop_signal.hpp"
 #include "version.hpp"
 
@@ -61,6 +62,9 @@ Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study,
                    "the same command goes on from here");
   }
   say_what_was_done(*summary, console);
+  if (const auto written = studies::write_results(*plan, folder); !written) {
+    return tl::unexpected(written.error());
+  }
   const auto page = reports::write_report(folder);
   if (!page) return tl::unexpected(page.error());
   report = *page;

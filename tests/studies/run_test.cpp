@@ -5,6 +5,7 @@
 
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
+#include "flexspline/studies/results.hpp"
 #include "flexspline/studies/run.hpp"
 #include "study_file.hpp"
 
@@ -184,6 +185,18 @@ TEST_F(RunStudy, FailingCaseDoesNotStopTheStudy) {
   const auto again = run(study);
   EXPECT_EQ(again->computed, 0U);
   EXPECT_EQ(again->failed.size(), 1U) << "a failure taken over is still a failure";
+}
+
+TEST_F(RunStudy, ResultsAreHdf5AndLeaveNothingHalfWritten) {
+  const StudyConfig study = load(text_);
+  ASSERT_TRUE(run(study).has_value());
+  const auto plan = plan_study(study, "build");
+  ASSERT_TRUE(write_results(*plan, out()).has_value());
+  EXPECT_EQ(read_text(out() / "results.nc").substr(1, 3), "HDF");
+  EXPECT_FALSE(exists(out() / ".results.nc.part"));
+  const auto nowhere = write_results(*plan, out() / "none");
+  ASSERT_FALSE(nowhere.has_value());
+  EXPECT_EQ(nowhere.error().code, ErrorCode::cannot_write);
 }
 
 TEST_F(RunStudy, MissingDatasetIsNamed) {

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "flexspline/data/artefact.hpp"
+#include "results/results_table.hpp"
+#include "run/artefact_json.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using nlohmann::ordered_json;
+
+enum Dimension : std::size_t { kInput, kEstimator, kAmplitude, kFrequency, kReplicate, kParameter, kRow };
+
+double number(const ordered_json& value) { return value.is_number() ? value.get<double>() : kNone; }
+
+template <class T>
+std::size_t index_in(const std::vector<T>& list, const T& value) {
+  return static_cast<std::size_t>(std::ranges::find(list, value) - list.begin());
+}
+
+template <class T>
+void add_once(std::vector<T>& list, const T& value) {
+  if (std::ranges::find(list, value) == list.end()) list.push_back(value);
+}
+
+/// Amplitudes come back from degrees with rounding errors that would make axes of their own.
+double tidy(double value) { return std::round(value * 1e9) / 1e9; }
+
+double error_of(const ordered_json& recording) {
+  const double known = number(recording.at("rmse_true_percent_of_peak"));
+  return std::isnan(known) ? number(recording.at("rmse_percent_of_peak")) : known;
+}
+
+class Gatherer {
+ public:
+  Gatherer(const StudyPlan& plan, const std::filesystem::path& folder) : plan_(plan) {
+    for (const CasePlan& one : plan.cases) {
+      auto read = data::read_artefact(folder / "cases" / (one.key + ".json"), kCaseSchema);
+      if (read && read->value("status", "") == "done") artefacts_.emplace_back(&one, std::move(*read));
+    }
+  }
+
+  ResultsTable operator()() {
+    make_axes();
+    add_errors();
+    add_parameters("parameter_value", "estimates, SI or as scaled by their law", "value");
+    add_parameters("parameter_std", "standard deviations of the estimates", "std");
+    add_rows();
+    return std::move(table_);
+  }
+
+ private:
+  void make_axes() {
+    table_.axes = {{"input", {}, {}, ""},          {"estimator", {}, {}, ""},
+                   {"amplitude", {}, {}, "degree"}, {"frequency", {}, {}, "Hz"},
+                   {"replicate", {}, {}, "1"},      {"parameter", {}, {}, ""},
+                   {"row", {}, {}, "1"}};
+    for (const InputConfig& input : plan_.study->inputs) table_.axes[kInput].labels.push_back(input.id);
+    for (const EstimatorConfig& row : plan_.study->estimators) table_.axes[kEstimator].labels.push_back(row.id);
+    for (int r = 0; r < plan_.study->replicates; ++r) table_.axes[kReplicate].values.push_back(r);
+    for (const auto& [one, artefact] : artefacts_) {
+      for (const ordered_json& parameter : artefact.at("estimate").at("parameters")) {
+        add_once(table_.axes[kParameter].labels, parameter.at("name").get<std::string>());
+      }
+      for (const ordered_json& recording : artefact.at("recordings")) {
+        table_.axes[kRow].values.push_back(static_cast<double>(table_.axes[kRow].values.size()));
+        if (!on_grid(*one, recording)) continue;
+        add_once(table_.axes[kAmplitude].values, tidy(number(recording.at("amplitude"))));
+        add_once(table_.axes[kFrequency].values, tidy(number(recording.at("frequency_hz"))));
+      }
+    }
+    std::ranges::sort(table_.axes[kAmplitude].values);
+    std::ranges::sort(table_.axes[kFrequency].values);
+  }
+
+  static bool on_grid(const CasePlan& one, const ordered_json& recording) {
+    return !one.input->truth.empty() && recording.at("role") == "holdout";
+  }
+
+  /// A variable full of NaN.
+  Variable& add(const char* name, const char* says, const char* unit, std::vector<std::size_t> axes) {
+    std::size_t size = 1;
+    for (const std::size_t axis : axes) size *= table_.axes[axis].size();
+    return table_.variables.emplace_back(
+        Variable{name, says, unit, std::move(axes), std::vector<double>(size, kNone), {}});
+  }
+
+  double& at(Variable& variable, const std::vector<std::size_t>& indices) const {
+    std::size_t offset = 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      offset = offset * table_.axes[variable.axes[i]].size() + indices[i];
+    }
+    return variable.values.at(offset);
+  }
+
+  std::size_t input_of(const CasePlan& one) const { return index_in(table_.axes[kInput].labels, one.input->id); }
+  std::size_t estimator_of(const CasePlan& one) const {
+    return index_in(table_.axes[kEstimator].labels, one.estimator->id);
+  }
+
+  void add_errors() {
+    Variable& errors = add("error_percent", "hold-out rms error of the effort, of the recording's peak", "percent",
+                           {kInput, kEstimator, kAmplitude, kFrequency, kReplicate});
+    for (const auto& [one, artefact] : artefacts_) {
+      for (const ordered_json& recording : artefact.at("recordings")) {
+        if (!on_grid(*one, recording)) continue;
+        const std::size_t a = index_in(table_.axes[kAmplitude].values, tidy(number(recording.at("amplitude"))));
+        const std::size_t f = index_in(table_.axes[kFrequency].values, tidy(number(recording.at("frequency_hz"))));
+        at(errors, {input_of(*one), estimator_of(*one), a, f, static_cast<std::size_t>(one->replicate)}) =
+            error_of(recording);
+      }
+    }
+  }
+
+  void add_parameters(const char* name, const char* says, const char* key) {
+    Variable& variable = add(name, says, "", {kInput, kEstimator, kReplicate, kParameter});
+    for (const auto& [one, artefact] : artefacts_) {
+      for (const ordered_json& parameter : artefact.at("estimate").at("parameters")) {
+        const std::size_t p = index_in(table_.axes[kParameter].labels, parameter.at("name").get<std::string>());
+        at(variable, {input_of(*one), estimator_of(*one), static_cast<std::size_t>(one->replicate), p}) =
+            number(parameter.at(key));
+      }
+    }
+  }
+
+  void add_rows() {
+    Variable cases{"row_case", "key of the case", "", {kRow}, {}, {}};
+    Variable ids{"row_recording", "id of the recording", "", {kRow}, {}, {}};
+    Variable roles{"row_role", "train or holdout", "", {kRow}, {}, {}};
+    Variable errors{"row_error_percent", "rms error of the effort, of the recording's peak", "percent", {kRow}, {}, {}};
+    for (const auto& [one, artefact] : artefacts_) {
+      for (const ordered_json& recording : artefact.at("recordings")) {
+        cases.labels.push_back(one->key);
+        ids.labels.push_back(recording.at("id").get<std::string>());
+        roles.labels.push_back(recording.at("role").get<std::string>());
+        errors.values.push_back(error_of(recording));
+      }
+    }
+    for (Variable* variable : {&cases, &ids, &roles, &errors}) table_.variables.push_back(std::move(*variable));
+  }
+
+  const StudyPlan& plan_;
+  std::vector<std::pair<const CasePlan*, ordered_json>> artefacts_;
+  ResultsTable table_;
+};
+
+}  // namespace
+
+ResultsTable gather_results(const StudyPlan& plan, const std::filesystem::path& folder) {
+  return Gatherer(plan, folder)();
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "flexspline/studies/plan.hpp"
+
+namespace flexspline::studies {
+
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// A dimension with its values.
+struct Axis {
+  std::string name;
+  std::vector<std::string> labels;  ///< of a dimension of names
+  std::vector<double> values;       ///< of a dimension of numbers
+  std::string unit;
+
+  std::size_t size() const { return labels.empty() ? values.size() : labels.size(); }
+};
+
+/// A variable over dimensions named by their position in the table.
+struct Variable {
+  std::string name;
+  std::string says;
+  std::string unit;
+  std::vector<std::size_t> axes;
+  std::vector<double> values;       ///< row-major; empty for text
+  std::vector<std::string> labels;  ///< text
+};
+
+struct ResultsTable {
+  std::vector<Axis> axes;
+  std::vector<Variable> variables;
+};
+
+/// Gathers the table from the case artefacts of a folder. What is missing stays NaN.
+ResultsTable gather_results(const StudyPlan& plan, const std::filesystem::path& folder);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,105 @@
+#include <system_error>
+
+#include <fmt/format.h>
+#include <netcdf.h>
+
+#include "flexspline/studies/results.hpp"
+#include "results/results_table.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+/// The only place that names netCDF. Remembers the first failure and does nothing after it.
+class NetcdfFile {
+ public:
+  explicit NetcdfFile(const std::filesystem::path& path) {
+    check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_));
+    open_ = status_ == NC_NOERR;
+  }
+  ~NetcdfFile() { close(); }
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  int dimension(const std::string& name, std::size_t size) {
+    int id = 0;
+    if (ok()) check(nc_def_dim(file_, name.c_str(), size, &id));
+    return id;
+  }
+  void text(int variable, const char* key, const std::string& value) {
+    if (ok() && !value.empty()) check(nc_put_att_text(file_, variable, key, value.size(), value.c_str()));
+  }
+  void variable(const Variable& one, const std::vector<int>& dimensions) {
+    if (!ok()) return;
+    int id = 0;
+    const bool numbers = one.labels.empty();
+    check(nc_def_var(file_, one.name.c_str(), numbers ? NC_DOUBLE : NC_STRING,
+                     static_cast<int>(dimensions.size()), dimensions.data(), &id));
+    text(id, "long_name", one.says);
+    text(id, "units", one.unit);
+    if (!ok()) return;
+    if (numbers) {
+      check(nc_put_var_double(file_, id, one.values.data()));
+      return;
+    }
+    std::vector<const char*> words;
+    for (const std::string& label : one.labels) words.push_back(label.c_str());
+    check(nc_put_var_string(file_, id, words.data()));
+  }
+  /// Empty where all went well.
+  std::string close() {
+    if (open_) check(nc_close(file_));
+    open_ = false;
+    return ok() ? "" : nc_strerror(status_);
+  }
+
+ private:
+  bool ok() const { return status_ == NC_NOERR; }
+  void check(int status) {
+    if (ok()) status_ = status;
+  }
+
+  int file_ = 0;
+  int status_ = NC_NOERR;
+  bool open_ = false;
+};
+
+std::string write_table(const ResultsTable& table, const std::string& title,
+                        const std::filesystem::path& path) {
+  NetcdfFile file(path);
+  file.text(NC_GLOBAL, "Conventions", "CF-1.8");
+  file.text(NC_GLOBAL, "title", title);
+  std::vector<int> dimensions;
+  for (const Axis& axis : table.axes) {
+    // A dimension of length 0 would mean unlimited.
+    dimensions.push_back(axis.size() > 0 ? file.dimension(axis.name, axis.size()) : -1);
+    if (axis.size() > 0) {
+      file.variable({axis.name, "", axis.unit, {}, axis.values, axis.labels}, {dimensions.back()});
+    }
+  }
+  for (const Variable& variable : table.variables) {
+    if (variable.values.empty() && variable.labels.empty()) continue;
+    std::vector<int> own;
+    for (const std::size_t axis : variable.axes) own.push_back(dimensions[axis]);
+    file.variable(variable, own);
+  }
+  return file.close();
+}
+
+}  // namespace
+
+Result<void> write_results(const StudyPlan& plan, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "results.nc";
+  const std::filesystem::path half = folder / ".results.nc.part";
+  std::error_code error;
+  const std::string problem = write_table(gather_results(plan, folder), plan.study->title, half);
+  if (problem.empty()) std::filesystem::rename(half, path, error);
+  if (problem.empty() && !error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(half, ignored);
+  return failure(ErrorCode::cannot_write,
+                 fmt::format("{} cannot be written: {}", path.string(),
+                             problem.empty() ? error.message() : problem),
+                 "choose a folder that can be written");
+}
+
+}  // namespace flexspline::studies
