@@ -9,42 +9,75 @@
 namespace flexspline {
 namespace {
 
+constexpr std::size_t kFewest = 16;  // samples of a spline
+
 double smoothstep(double u) {
   u = std::clamp(u, 0.0, 1.0);
   return u * u * (3.0 - 2.0 * u);
 }
 
-void blend(std::vector<double>& into, const std::vector<double>& from, std::size_t i,
-           std::size_t j, double weight) {
-  into[i] = (1.0 - weight) * into[i] + weight * from[j];
+struct Segment {
+  std::size_t first;
+  std::size_t last;
+};
+
+SmoothSignal spline_over(std::span<const double> time, std::span<const double> samples,
+                         Segment segment) {
+  const std::size_t length = segment.last - segment.first;
+  return smooth_by_spline(time.subspan(segment.first, length),
+                          samples.subspan(segment.first, length));
 }
 
-// The transient by a spline, the steady part by its harmonics; they meet over a quarter of a cycle.
+// Adds a part of the record to the whole with a weight for every instant.
+template <class Weight>
+void add(SmoothSignal& whole, const SmoothSignal& part, std::size_t offset, const Weight& weight) {
+  for (std::size_t j = 0; j < part.value.size(); ++j) {
+    const double w = weight(offset + j);
+    whole.value[offset + j] += w * part.value[j];
+    whole.rate[offset + j] += w * part.rate[j];
+    whole.second[offset + j] += w * part.second[j];
+    whole.error[offset + j] += w * part.error[j];
+  }
+}
+
+// The steady part by its harmonics, what is before and after by splines; they meet over a quarter of
+// a cycle inside the steady part.
 SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples,
                     const std::optional<SteadyPart>& steady) {
   const std::span<const double> time(record.time);
+  const std::size_t n = time.size();
   if (!steady) return smooth_by_spline(time, samples);
-  const auto periodic = smooth_by_harmonics(time.subspan(steady->first),
-                                            samples.subspan(steady->first), steady->period);
-  if (steady->first == 0) return periodic;
-
-  const double joint = time[steady->first];
-  const auto overlap_end = std::upper_bound(time.begin(), time.end(), joint + 0.5 * steady->period);
-  const auto transient = std::max<std::size_t>(
-      16, static_cast<std::size_t>(overlap_end - time.begin()));
-  auto signal = smooth_by_spline(time.first(transient), samples.first(transient));
-  for (auto* part : {&signal.value, &signal.rate, &signal.second, &signal.error}) part->resize(time.size());
-  signal.noise = periodic.noise;
-  for (std::size_t i = steady->first; i < time.size(); ++i) {
-    const std::size_t j = i - steady->first;
-    const double weight =
-        i < transient ? smoothstep((time[i] - joint) / (0.25 * steady->period)) : 1.0;
-    blend(signal.value, periodic.value, i, j, weight);
-    blend(signal.rate, periodic.rate, i, j, weight);
-    blend(signal.second, periodic.second, i, j, weight);
-    blend(signal.error, periodic.error, i, j, weight);
+  const std::size_t length = steady->last - steady->first;
+  const auto periodic = smooth_by_harmonics(time.subspan(steady->first, length),
+                                            samples.subspan(steady->first, length),
+                                            steady->period);
+  const double begins = time[steady->first];
+  const double ends = time[steady->last - 1];
+  const double overlap = 0.25 * steady->period;
+  const bool before = steady->first > 0;
+  const bool after = steady->last < n;
+  auto weight = [&](std::size_t i) {
+    const double rise = before ? smoothstep((time[i] - begins) / overlap) : 1.0;
+    const double fall = after ? smoothstep((ends - time[i]) / overlap) : 1.0;
+    return std::min(rise, fall);
+  };
+  const std::vector<double> zero(n, 0.0);
+  SmoothSignal whole{zero, zero, zero, periodic.noise, zero};
+  add(whole, periodic, steady->first, weight);
+  const auto reaches = [&](double t) {
+    return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
+  };
+  if (before) {
+    const std::size_t last = std::clamp(reaches(begins + 2.0 * overlap), std::min(n, kFewest), n);
+    add(whole, spline_over(time, samples, {0, last}), 0,
+        [&](std::size_t i) { return time[i] < begins + overlap ? 1.0 - weight(i) : 0.0; });
   }
-  return signal;
+  if (after) {
+    const std::size_t first = std::min(reaches(ends - 2.0 * overlap), n - std::min(n, kFewest));
+    add(whole, spline_over(time, samples, {first, n}), first,
+        [&](std::size_t i) { return time[i] > ends - overlap ? 1.0 - weight(i) : 0.0; });
+  }
+  return whole;
 }
 
 }  // namespace

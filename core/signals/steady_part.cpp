@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "flexspline/core/signals.hpp"
@@ -10,7 +11,8 @@ namespace {
 
 constexpr std::size_t kPhases = 200;
 constexpr double kRepeats = 0.15;     // cycles that differ by more of their rms do not repeat
-constexpr double kAsTheLast = 0.02;   // differences below this share of the rms are steady
+constexpr double kAsTheBest = 0.02;   // differences below this share of the rms are steady
+constexpr double kAtRest = 0.5;       // of the largest cycle's rms: smaller ones are no loop
 
 std::vector<double> cycle_ending(const Spline& signal, double end, double period) {
   std::vector<double> cycle(kPhases);
@@ -34,22 +36,72 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-// Number of cycles before the end that repeat the last one, that one included.
-int repeating_cycles(const Spline& signal, double end, double period, int available) {
-  const auto last = cycle_ending(signal, end, period);
-  const double rms = rms_about_mean(last);
+// A run of cycles that agree, on the grid of half cycles before the end of the record: its last
+// cycle ends at end - steps * period / 2.
+struct Run {
+  int steps = 0;
+  int cycles = 0;
   double allowed = 0.0;
-  int cycles = 1;
-  for (int k = 1; k < available; ++k) {
-    const double difference = rms_difference(cycle_ending(signal, end - k * period, period), last);
-    if (k == 1) {
-      if (difference > kRepeats * rms) return 1;
-      allowed = std::max(1.5 * difference, kAsTheLast * rms);
+};
+
+// Cycles as the signal has them, ending every half period before the end of the record.
+class Cycles {
+ public:
+  Cycles(const Spline& signal, double end, double period, int available) {
+    for (int k = 0; k <= 2 * (available - 1); ++k) {
+      cycles_.push_back(cycle_ending(signal, end - 0.5 * k * period, period));
+      largest_ = std::max(largest_, rms_about_mean(cycles_.back()));
     }
-    if (difference > allowed) break;
-    ++cycles;
   }
-  return cycles;
+
+  int steps() const { return static_cast<int>(cycles_.size()); }
+
+  // Difference between the cycles `a` and `b`, in parts of the rms; infinite where either rests.
+  double difference(int a, int b) const {
+    const auto& one = cycles_[static_cast<std::size_t>(a)];
+    const auto& other = cycles_[static_cast<std::size_t>(b)];
+    const double rms = std::min(rms_about_mean(one), rms_about_mean(other));
+    if (rms < kAtRest * largest_) return std::numeric_limits<double>::infinity();
+    return rms_difference(one, other) / rms;
+  }
+
+ private:
+  std::vector<std::vector<double>> cycles_;
+  double largest_ = 0.0;
+};
+
+double pair_difference(const Cycles& motion, const Cycles& effort, int a, int b) {
+  return std::max(motion.difference(a, b), effort.difference(a, b));
+}
+
+// The pair of neighbouring cycles that agree best, with every neighbour before and after that does.
+std::optional<Run> longest_run(const Cycles& motion, const Cycles& effort) {
+  int best = -1;
+  double least = kRepeats;
+  for (int k = 0; k + 2 < motion.steps(); ++k) {
+    const double difference = pair_difference(motion, effort, k, k + 2);
+    // A later pair is kept unless an earlier one is clearly better: transients come first.
+    if (difference < (best < 0 ? least : 0.7 * least)) {
+      least = difference;
+      best = k;
+    }
+  }
+  if (best < 0) return std::nullopt;
+  Run run{.steps = best, .cycles = 2, .allowed = std::max(1.5 * least, kAsTheBest)};
+  auto agrees = [&](int k) {
+    return k >= 0 && k < motion.steps() &&
+           pair_difference(motion, effort, k, best) <= run.allowed;
+  };
+  while (agrees(run.steps - 2)) {
+    run.steps -= 2;
+    ++run.cycles;
+  }
+  while (agrees(run.steps + 2 * run.cycles)) ++run.cycles;
+  return run;
+}
+
+std::size_t index_at(std::span<const double> time, double t) {
+  return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
 }
 
 }  // namespace
@@ -58,27 +110,28 @@ std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
   if (record.travels || record.time.size() < 16) return std::nullopt;
   const double end = record.time.back();
   const double span = end - record.time.front();
-  auto sine = fit_sine(record.time, record.motion, record.frequency_hz);
+  const auto sine = fit_sine(record.time, record.motion, record.frequency_hz);
   if (!(sine.frequency_hz > 0.0) || span * sine.frequency_hz < 1.999) return std::nullopt;
 
-  const Spline motion(record.time, record.motion);
-  const Spline effort(record.time, record.effort);
   const double period = 1.0 / sine.frequency_hz;
   const int available = static_cast<int>(span / period + 1e-3);
-  const int cycles = std::min(repeating_cycles(motion, end, period, available),
-                              repeating_cycles(effort, end, period, available));
-  if (cycles < 2) return std::nullopt;
+  const Cycles motion(Spline(record.time, record.motion), end, period, available);
+  const Cycles effort(Spline(record.time, record.effort), end, period, available);
+  const auto run = longest_run(motion, effort);
+  if (!run) return std::nullopt;
 
-  SteadyPart steady{.period = period, .first = 0, .last = record.time.size(), .cycles = cycles};
-  const double from = end - cycles * period;
-  steady.first = static_cast<std::size_t>(
-      std::lower_bound(record.time.begin(), record.time.end(), from + 1e-9 * period) -
-      record.time.begin());
+  const double to = end - 0.5 * run->steps * period;
+  const double from = to - run->cycles * period;
+  SteadyPart steady{.period = period,
+                    .first = index_at(record.time, from + 1e-9 * period),
+                    .last = index_at(record.time, to + 1e-9 * period),
+                    .cycles = run->cycles};
   // The run-up has biased the frequency: fit it again without.
-  const std::span<const double> t(record.time);
-  const std::span<const double> x(record.motion);
-  const double again =
-      fit_sine(t.subspan(steady.first), x.subspan(steady.first), sine.frequency_hz).frequency_hz;
+  const std::size_t length = steady.last - steady.first;
+  const double again = fit_sine(std::span(record.time).subspan(steady.first, length),
+                                std::span(record.motion).subspan(steady.first, length),
+                                sine.frequency_hz)
+                           .frequency_hz;
   if (std::abs(again * period - 1.0) < 0.1) steady.period = 1.0 / again;
   return steady;
 }

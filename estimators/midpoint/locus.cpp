@@ -25,8 +25,9 @@ Result<MidpointLocus> midpoint_locus(const TorsionRecord& record) {
   }
   const std::span<const double> time(record.time);
   const std::span<const double> motion(record.motion);
-  const SineFit sine = fit_sine(time.subspan(steady->first), motion.subspan(steady->first),
-                                1.0 / steady->period);
+  const std::size_t length = steady->last - steady->first;
+  const SineFit sine = fit_sine(time.subspan(steady->first, length),
+                                motion.subspan(steady->first, length), 1.0 / steady->period);
   if (sine.explained < kLeastPurity) {
     return failure(ErrorCode::numerics,
                    fmt::format("a sine explains {:.0f} % of the motion of recording {}",
@@ -45,7 +46,7 @@ Result<MidpointLocus> midpoint_locus(const TorsionRecord& record) {
   // The first crest of the sine in the steady part.
   const double turns = std::ceil((w * from + sine.phase) / (2.0 * std::numbers::pi));
   const double crest = (2.0 * std::numbers::pi * turns - sine.phase) / w;
-  const int cycles = static_cast<int>((time.back() - crest) / period + 1e-3);
+  const int cycles = static_cast<int>((time[steady->last - 1] - crest) / period + 1e-3);
   if (cycles < 1) {
     return failure(ErrorCode::numerics,
                    fmt::format("recording {} holds no whole cycle from crest to crest", record.id),
