@@ -89,11 +89,13 @@ Table in_full(const StudyView& view) {
   return table;
 }
 
-/// Over all inputs, on smaller and slower loops; where there are none, on any that were held out.
+/// Over all inputs on which the full trajectory ran too, on smaller and slower loops; where there
+/// are none, on any that were held out.
 Worst worst_of(const StudyView& view, const EstimatorView& estimator, bool inside) {
   Worst all;
   const std::vector<Elsewhere> within = {Elsewhere::lower_amplitude, Elsewhere::lower_frequency};
   for (const Input& input : view.artefacts().inputs) {
+    if (view.find(input, *view.full_trajectory()) == nullptr) continue;
     for (const Elsewhere elsewhere : inside ? within : std::vector{Elsewhere::anywhere}) {
       const Worst one = view.worst(input, estimator, elsewhere);
       if (std::isfinite(one.percent) && !(all.percent >= one.percent)) {
