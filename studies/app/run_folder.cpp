@@ -65,6 +65,9 @@ Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study,
   if (const auto written = studies::write_results(*plan, folder); !written) {
     return tl::unexpected(written.error());
   }
+  if (const auto written = studies::write_ro_crate(*plan, versions(), folder); !written) {
+    return tl::unexpected(written.error());
+  }
   const auto page = reports::write_report(folder);
   if (!page) return tl::unexpected(page.error());
   report = *page;

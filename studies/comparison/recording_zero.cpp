@@ -63,13 +63,17 @@ double search_zero(const ModelSpec& model, const Motion& motion, const ComparedS
 
 Result<double> recording_zero(const Estimate& estimate, const std::string& id, const Motion& motion,
                               const ComparedSeries& series) {
-  bool each_has_one = false;
+  double sum = 0.0;
+  int count = 0;
   for (const ParameterEstimate& parameter : estimate.parameters) {
     if (!parameter.name.starts_with(kPrefix)) continue;
     if (parameter.name == std::string(kPrefix) + id + "]") return parameter.value;
-    each_has_one = true;
+    sum += parameter.value;
+    ++count;
   }
-  return each_has_one ? search_zero(estimate.model, motion, series) : 0.0;
+  if (count == 0) return 0.0;
+  const bool virtual_bench = !series.truth.empty();
+  return virtual_bench ? sum / count : search_zero(estimate.model, motion, series);
 }
 
 }  // namespace flexspline::studies

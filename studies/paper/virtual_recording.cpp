@@ -85,18 +85,13 @@ MidpointLocus midpoint_locus(const PaperExperiment& experiment) {
   return locus;
 }
 
-std::array<Recovered, 5> recovered_coefficients(const Estimate& estimate, const LawSpec& law) {
+std::array<Recovered, 5> recovered_coefficients(const Estimate& estimate, char letter) {
   std::array<Recovered, 5> recovered;
   recovered.fill({kNotComputed, kNotComputed});
-  double power = law.scale * kDegreesPerRad;
-  for (std::size_t k = 0; k < std::min(recovered.size(), law.coefficients.size()); ++k) {
-    const double coefficient = law.coefficients[k];
-    recovered[k].value = coefficient / power;
-    // Whatever its name and unit, the parameter of this coefficient has its relative uncertainty.
-    for (const ParameterEstimate& parameter : estimate.parameters) {
-      if (parameter.value == coefficient) recovered[k].std = parameter.std / power;
-    }
-    power *= std::pow(law.scale * kDegreesPerRad, 2);
+  for (std::size_t k = 0; k < recovered.size(); ++k) {
+    const std::string name = letter + std::to_string(k + 1);
+    const auto found = std::ranges::find(estimate.parameters, name, &ParameterEstimate::name);
+    if (found != estimate.parameters.end()) recovered[k] = {found->value, found->std};
   }
   return recovered;
 }

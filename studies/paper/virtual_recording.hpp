@@ -33,11 +33,12 @@ struct MidpointLocus {
 };
 MidpointLocus midpoint_locus(const PaperExperiment& experiment);
 
-/// A coefficient in Table I's units, with its standard deviation (NaN where the method gives none).
+/// A coefficient in Table I's units with its standard deviation, as the method names and gives it; NaN
+/// where it does not.
 struct Recovered {
   double value;
   double std;
 };
-std::array<Recovered, 5> recovered_coefficients(const Estimate& estimate, const LawSpec& law);
+std::array<Recovered, 5> recovered_coefficients(const Estimate& estimate, char letter);
 
 }  // namespace flexspline::studies

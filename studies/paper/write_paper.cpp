@@ -59,10 +59,8 @@ Result<void> write_paper(const StudyConfig& study, const std::string& depends_on
   if (!experiment) return tl::unexpected(in_context(experiment.error(), "the paper's experiment"));
   const Estimate& estimate = experiment->estimate;
   ordered_json table_one = ordered_json::array();
-  add_coefficients(table_one, 'a', "deg", kStiffness,
-                   recovered_coefficients(estimate, estimate.model.f));
-  add_coefficients(table_one, 'b', "(deg/s)", kDamping,
-                   recovered_coefficients(estimate, estimate.model.g_inverse));
+  add_coefficients(table_one, 'a', "deg", kStiffness, recovered_coefficients(estimate, 'a'));
+  add_coefficients(table_one, 'b', "(deg/s)", kDamping, recovered_coefficients(estimate, 'b'));
   return data::write_artefact(file, {{"schema", "flexspline-paper/1"},
                                      {"depends_on", depends_on},
                                      {"facts", facts_json()},

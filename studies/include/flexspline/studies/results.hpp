@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "flexspline/core/error.hpp"
 #include "flexspline/studies/plan.hpp"
@@ -14,5 +16,10 @@ namespace flexspline::studies {
 /// where there is none. Written under a temporary name and renamed.
 /// Errors: cannot_write.
 Result<void> write_results(const StudyPlan& plan, const std::filesystem::path& folder);
+
+/// ro-crate-metadata.json: the folder as a process run crate (RO-Crate 1.1): program, inputs, results.
+/// Errors: cannot_write.
+Result<void> write_ro_crate(const StudyPlan& plan, const std::map<std::string, std::string>& versions,
+                            const std::filesystem::path& folder);
 
 }  // namespace flexspline::studies
