@@ -16,6 +16,8 @@ namespace {
 constexpr double kLogModulationLimit = 0.1;  // sd of ln h: h to ten percent
 constexpr double kTorqueLimit = 0.02;        // sd of a term's largest torque, of peak effort
 constexpr double kProbe = 0.9;               // of the range, where ln h is judged
+// Beyond it only the coarseness of the splines, not the recordings, would tell h from g^-1.
+constexpr double kLargestCosine = 0.999;
 
 std::vector<Eigen::Index> columns_of(const Group& group) {
   std::vector<Eigen::Index> list;
@@ -46,6 +48,19 @@ double log_h_std(const Eigen::MatrixXd& covariance) {
     worst = std::max(worst, std::sqrt(std::max(0.0, powers.dot(part * powers))));
   }
   return worst;
+}
+
+// A run-up from rest passes through every smaller amplitude, and h read from those few samples alone
+// would rest on how the motion was started; so where a record has a steady part, only that counts.
+void leave_out_transients(const std::vector<PreparedRecord>& records, Eigen::MatrixXd& jacobian) {
+  Eigen::Index row = 0;
+  for (const auto& one : records) {
+    for (std::size_t sample : one.rows) {
+      const auto& steady = one.smooth.steady;
+      if (steady && (sample < steady->first || sample >= steady->last)) jacobian.row(row).setZero();
+      ++row;
+    }
+  }
 }
 
 struct Candidate {
@@ -87,8 +102,9 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   all.initial = false;
   const LinearStart probe = with_terms(start, all);
   const TorsionLayout& layout = probe.layout;
-  const auto at = linearise(TorqueResiduals(layout, records), probe.p);
+  auto at = linearise(TorqueResiduals(layout, records), probe.p);
   if (!at) return tl::unexpected(at.error());
+  leave_out_transients(records, at->jacobian);
   const Eigen::MatrixXd& j = at->jacobian;
   auto rest = joined(columns_of(layout.f_group), columns_of(layout.g_group));
   rest = joined(rest, columns_of(layout.offset_group));
@@ -101,7 +117,7 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   decision.log_h_std = log_h_std(covariance_of(j(Eigen::all, joined(rest, h_columns))));
   decision.condition = scaled_condition(j(Eigen::all, joined(rest, h_columns)));
   decision.absorbed.push_back({"h", "f, g_inverse", cosine});
-  const bool tells = decision.log_h_std <= kLogModulationLimit;
+  const bool tells = decision.log_h_std <= kLogModulationLimit && cosine <= kLargestCosine;
   decision.free.h = allowed.h && tells ? kModulationTerms : 0;
   decision.verdict = tells ? "identifiable" : "not_identifiable";
   decision.says = says_of(decision.log_h_std, cosine, records.size(), tells);
