@@ -26,7 +26,8 @@ Result<long> Arguments::integer(const std::string& name, long fallback, long low
   long value = 0;
   const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
   if (error != std::errc{} || end != given.data() + given.size() || value < low || value > high) {
-    return failure(ErrorCode::usage, fmt::format("--{} = '{}' is not a whole number in range", name, given),
+    return failure(ErrorCode::usage,
+                   fmt::format("--{} = '{}' is not a whole number in range", name, given),
                    fmt::format("give one between {} and {}", low, high));
   }
   return value;

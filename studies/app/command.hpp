@@ -15,11 +15,11 @@ namespace flexspline::app {
 /// One argument of a command. Names that begin with - are options, others positions; each takes a
 /// value.
 struct ArgumentInfo {
-  std::string_view name;     ///< "study", "--out"
+  std::string_view name;  ///< "study", "--out"
   std::string_view meaning;
-  std::string_view value;    ///< what it takes, e.g. "DIR"
+  std::string_view value;  ///< what it takes, e.g. "DIR"
   bool required = false;
-  bool repeats = false;      ///< may be given more than once
+  bool repeats = false;  ///< may be given more than once
 };
 
 /// What was given, by the name of the argument without its dashes.

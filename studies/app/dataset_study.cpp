@@ -15,7 +15,8 @@ std::string id_of(const std::filesystem::path& dataset) {
   const std::filesystem::path whole = std::filesystem::weakly_canonical(dataset, ignored);
   std::string id = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   for (char& letter : id) {
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-' && letter != '.') letter = '_';
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-' && letter != '.')
+      letter = '_';
   }
   for (auto at = id.find("--"); at != std::string::npos; at = id.find("--")) id.erase(at, 1);
   return id.empty() ? "dataset" : id;
@@ -68,8 +69,10 @@ Result<estimators::Options> parse_options(const std::vector<std::string>& given)
     const std::string value = one.substr(equals + 1);
     double number = 0.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error == std::errc{} && end == value.data() + value.size()) options.numbers[name] = number;
-    else options.words[name] = value;
+    if (error == std::errc{} && end == value.data() + value.size())
+      options.numbers[name] = number;
+    else
+      options.words[name] = value;
   }
   return options;
 }

@@ -78,7 +78,8 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error, int argc, cha
   const bool known = first.starts_with('-') ||
                      std::ranges::find(commands(), first, &CommandRow::id) != commands().end();
   console.error(known || first.empty() ? error.what() : command_help(first));
-  console.error(fmt::format("see flexspline {}--help", known && !first.starts_with('-') ? first + " " : ""));
+  console.error(
+      fmt::format("see flexspline {}--help", known && !first.starts_with('-') ? first + " " : ""));
   return static_cast<ExitCode>(ErrorCode::usage);
 }
 

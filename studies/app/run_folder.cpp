@@ -30,8 +30,9 @@ class ProgressLine {
 };
 
 void say_what_was_done(const studies::RunSummary& summary, Console& console) {
-  console.say(fmt::format("{} cases: {} computed, {} taken over, {} failed, {:.1f} s", summary.cases,
-                          summary.computed, summary.reused, summary.failed.size(), summary.seconds));
+  console.say(fmt::format("{} cases: {} computed, {} taken over, {} failed, {:.1f} s",
+                          summary.cases, summary.computed, summary.reused, summary.failed.size(),
+                          summary.seconds));
   for (const std::string& failed : summary.failed) console.error(failed);
 }
 
@@ -57,8 +58,8 @@ Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study,
   if (!summary) return summary;
   if (summary->interrupted) {
     return failure(ErrorCode::interrupted,
-                   fmt::format("interrupted after {} of {} cases", summary->computed + summary->reused,
-                               summary->cases),
+                   fmt::format("interrupted after {} of {} cases",
+                               summary->computed + summary->reused, summary->cases),
                    "the same command goes on from here");
   }
   say_what_was_done(*summary, console);

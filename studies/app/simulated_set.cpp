@@ -23,7 +23,8 @@ Result<Recording> simulate_one(const ModelSpec& model, const Excitation& excitat
           ? simulate_torque(model, excitation.motion)
           : simulate_torsion(model, excitation.motion.time, excitation.effort,
                              excitation.motion.position.front());
-  if (!simulated) return tl::unexpected(in_context(simulated.error(), "recording " + excitation.id));
+  if (!simulated)
+    return tl::unexpected(in_context(simulated.error(), "recording " + excitation.id));
   const bool forward = direction == Direction::torque;
   recording.channels[linear ? Quantity::displacement : Quantity::torsion] =
       forward ? excitation.motion.position : *simulated;
@@ -66,8 +67,9 @@ Result<std::vector<Excitation>> excitations_like(const RecordingSet& set) {
   return excitations;
 }
 
-Result<RecordingSet> simulate_set(const ModelSpec& model, const std::vector<Excitation>& excitations,
-                                  Direction direction, const DisplayUnits& units) {
+Result<RecordingSet> simulate_set(const ModelSpec& model,
+                                  const std::vector<Excitation>& excitations, Direction direction,
+                                  const DisplayUnits& units) {
   RecordingSet set;
   set.name = "simulated";
   set.rig = Rig::specimen;

@@ -31,7 +31,8 @@ Result<std::vector<Excitation>> excitations_like(const RecordingSet& set);
 
 /// Simulates eq. (4), or eq. (3) from the excitation's first motion, into a specimen's data set.
 /// Errors: what the simulation refuses, with the recording's id.
-Result<RecordingSet> simulate_set(const ModelSpec& model, const std::vector<Excitation>& excitations,
-                                  Direction direction, const DisplayUnits& units);
+Result<RecordingSet> simulate_set(const ModelSpec& model,
+                                  const std::vector<Excitation>& excitations, Direction direction,
+                                  const DisplayUnits& units);
 
 }  // namespace flexspline::app

@@ -28,15 +28,16 @@ void count_after_run_up(const TorsionRecord& record, ComparedSeries& series) {
   series.cycle_first = index_at(record.time, record.time.back() - period + 0.5 * step);
 }
 
-void count_valid(const TorsionRecord& record, const Reconstruction& smooth, ComparedSeries& series) {
+void count_valid(const TorsionRecord& record, const Reconstruction& smooth,
+                 ComparedSeries& series) {
   series.counts = record.valid;
   series.counts.resize(record.time.size(), true);
   if (!smooth.steady) return;
   series.cycle_last = smooth.steady->last;
   const double end = record.time[smooth.steady->last - 1];
   const double step = end - record.time[smooth.steady->last - 2];
-  series.cycle_first =
-      std::max(smooth.steady->first, index_at(record.time, end - smooth.steady->period + 0.5 * step));
+  series.cycle_first = std::max(smooth.steady->first,
+                                index_at(record.time, end - smooth.steady->period + 0.5 * step));
 }
 
 Result<Motion> motion_of(const StudyRecording& recording, ComparedSeries& series) {

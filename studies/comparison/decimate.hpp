@@ -13,6 +13,7 @@ inline constexpr std::size_t kKeptPoints = 400;
 std::vector<std::size_t> kept_indices(std::size_t first, std::size_t last);
 
 /// The series at the indices.
-std::vector<double> at_indices(std::span<const double> series, std::span<const std::size_t> indices);
+std::vector<double> at_indices(std::span<const double> series,
+                               std::span<const std::size_t> indices);
 
 }  // namespace flexspline::studies

@@ -2,11 +2,11 @@
 
 #include <sstream>
 
-#include <nlohmann/json.hpp>
 #include <toml++/toml.h>
+#include <nlohmann/json.hpp>
 
-#include "flexspline/studies/study_config.hpp"
 #include "config/study_json.hpp"
+#include "flexspline/studies/study_config.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -29,12 +29,18 @@ toml::array to_array(const ordered_json& list) {
 
 template <class Put>
 void with_toml(const ordered_json& value, const Put& put) {
-  if (value.is_object()) put(to_table(value));
-  else if (value.is_array()) put(to_array(value));
-  else if (value.is_string()) put(value.get<std::string>());
-  else if (value.is_boolean()) put(value.get<bool>());
-  else if (value.is_number_integer()) put(value.get<std::int64_t>());
-  else if (value.is_number()) put(value.get<double>());
+  if (value.is_object())
+    put(to_table(value));
+  else if (value.is_array())
+    put(to_array(value));
+  else if (value.is_string())
+    put(value.get<std::string>());
+  else if (value.is_boolean())
+    put(value.get<bool>());
+  else if (value.is_number_integer())
+    put(value.get<std::int64_t>());
+  else if (value.is_number())
+    put(value.get<double>());
 }
 
 toml::table to_table(const ordered_json& object) {

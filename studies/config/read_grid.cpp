@@ -17,10 +17,10 @@ std::vector<Loop> read_pairs(TomlSection& grid) {
   const std::optional<Unit> second = units.size() == 2 ? find_unit(units[1]) : std::nullopt;
   if (!first || first->dimension != Dimension::angle || !second ||
       second->dimension != Dimension::frequency) {
-    list->refuse("units",
-                 fmt::format("'{}' is not a unit of angle and one of frequency",
-                             list->name_of("units")),
-                 "write units = [\"deg\", \"Hz\"]");
+    list->refuse(
+        "units",
+        fmt::format("'{}' is not a unit of angle and one of frequency", list->name_of("units")),
+        "write units = [\"deg\", \"Hz\"]");
     return {};
   }
   const toml::array* rows = values == nullptr ? nullptr : values->as_array();
@@ -56,9 +56,9 @@ void refuse_repeated_loops(TomlSection& section, const Grid& grid) {
   for (std::size_t i = 0; i < grid.loops.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (recording_id(grid.loops[i]) != recording_id(grid.loops[j])) continue;
-      section.refuse("id", fmt::format("grid '{}' holds loop {} twice", grid.id,
-                                       recording_id(grid.loops[i])),
-                     "name each loop once");
+      section.refuse(
+          "id", fmt::format("grid '{}' holds loop {} twice", grid.id, recording_id(grid.loops[i])),
+          "name each loop once");
     }
   }
 }
@@ -76,7 +76,8 @@ Grid read_grid(TomlSection& section) {
   const bool listed = section.has("loops");
   const bool product = section.has("amplitude") || section.has("frequency");
   if (listed && product) {
-    section.refuse("loops", fmt::format("grid '{}' has loops beside amplitude or frequency", grid.id),
+    section.refuse("loops",
+                   fmt::format("grid '{}' has loops beside amplitude or frequency", grid.id),
                    "give either loops, or amplitude and frequency");
   }
   grid.loops = read_product(section);
@@ -108,8 +109,8 @@ BenchConfig read_bench(TomlSection& section) {
     bench.sensors.torque_noise_samples = static_cast<double>(*samples);
   }
   bench.cycles = static_cast<int>(section.integer("cycles", 3, 1000).value_or(bench.cycles));
-  bench.samples_per_cycle =
-      static_cast<int>(section.integer("samples_per_cycle", 32, 100000).value_or(bench.samples_per_cycle));
+  bench.samples_per_cycle = static_cast<int>(
+      section.integer("samples_per_cycle", 32, 100000).value_or(bench.samples_per_cycle));
   section.refuse_unknown_keys();
   return bench;
 }

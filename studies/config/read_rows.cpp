@@ -19,7 +19,8 @@ void check_grid(TomlSection& section, std::string_view key, const std::string& i
   if (id.empty() || study.find_grid(id) != nullptr) return;
   if (std::ranges::find(also, id) != also.end()) return;
   std::ranges::copy(grid_ids(study), std::back_inserter(also));
-  section.refuse(key, fmt::format("'{}' = \"{}\" is not a grid of this study", section.name_of(key), id),
+  section.refuse(key,
+                 fmt::format("'{}' = \"{}\" is not a grid of this study", section.name_of(key), id),
                  suggestion(id, also));
 }
 
@@ -48,10 +49,15 @@ estimators::Options read_options(TomlSection& section, const estimators::MethodR
   if (!table) return options;
   for (const auto& [key, value] : table->raw()) {
     const std::string name(key.str());
-    if (value.is_number()) options.numbers[name] = *value.value<double>();
-    else if (const auto* flag = value.as_boolean()) options.numbers[name] = flag->get() ? 1.0 : 0.0;
-    else if (const auto* word = value.as_string()) options.words[name] = word->get();
-    else table->refuse_at(value, fmt::format("'{}' is neither a number nor a word", table->name_of(name)));
+    if (value.is_number())
+      options.numbers[name] = *value.value<double>();
+    else if (const auto* flag = value.as_boolean())
+      options.numbers[name] = flag->get() ? 1.0 : 0.0;
+    else if (const auto* word = value.as_string())
+      options.words[name] = word->get();
+    else
+      table->refuse_at(value,
+                       fmt::format("'{}' is neither a number nor a word", table->name_of(name)));
     if (method == nullptr) continue;
     estimators::Options one;
     if (options.numbers.contains(name)) one.numbers[name] = options.numbers[name];
@@ -69,8 +75,11 @@ void check_id(TomlSection& section, const std::string& id, const std::vector<std
     section.refuse("id", fmt::format("'{}' = \"{}\" was given before", section.name_of("id"), id),
                    "ids are unique");
   }
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
-  if (!std::ranges::all_of(id, plain) || id.find("--") != std::string::npos || id.starts_with('.')) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  if (!std::ranges::all_of(id, plain) || id.find("--") != std::string::npos ||
+      id.starts_with('.')) {
     section.refuse("id", fmt::format("'{}' = \"{}\" cannot name a file", section.name_of("id"), id),
                    "use letters, digits, _ . and single -");
   }
@@ -90,7 +99,8 @@ InputConfig read_input(TomlSection& section, const StudyConfig& study,
   }
   if (!input.truth.empty()) check_truth(section, input);
   if (!input.dataset.empty() && !input.holdout.empty()) {
-    section.refuse("holdout", fmt::format("input '{}' is a data set and takes no hold-out grid", input.id),
+    section.refuse("holdout",
+                   fmt::format("input '{}' is a data set and takes no hold-out grid", input.id),
                    "mark recordings with split = \"holdout\" in its dataset.toml");
   }
   check_grid(section, "holdout", input.holdout, study, {});
@@ -115,7 +125,8 @@ EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study) {
   for (const InputConfig& input : study.inputs) names.emplace_back(input.id);
   for (const std::string& input : estimator.inputs) {
     if (study.find_input(input) != nullptr) continue;
-    section.refuse("inputs", fmt::format("'{}' names no input '{}'", section.name_of("inputs"), input),
+    section.refuse("inputs",
+                   fmt::format("'{}' names no input '{}'", section.name_of("inputs"), input),
                    suggestion(input, names));
   }
   const bool grid_wanted = estimator.train == kTrainAll || estimator.train == kTrainOne;
@@ -123,8 +134,10 @@ EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study) {
     const bool selected = estimator.inputs.empty() ||
                           std::ranges::find(estimator.inputs, input.id) != estimator.inputs.end();
     if (!grid_wanted || !selected || input.truth.empty()) continue;
-    section.refuse("train", fmt::format("estimator '{}' names no grid to train on, which input '{}' of the "
-                                        "virtual bench needs", estimator.id, input.id),
+    section.refuse("train",
+                   fmt::format("estimator '{}' names no grid to train on, which input '{}' of the "
+                               "virtual bench needs",
+                               estimator.id, input.id),
                    "add train = \"<id of a grid>\"");
   }
   section.refuse_unknown_keys();

@@ -35,12 +35,9 @@ ordered_json to_json(const estimators::Options& options) {
 }
 
 ordered_json to_json(const StudyConfig& study) {
-  ordered_json object = {{"name", study.name},
-                         {"title", study.title},
-                         {"seed", study.seed},
-                         {"replicates", study.replicates},
-                         {"paper", study.paper},
-                         {"bench", to_json(study.bench)}};
+  ordered_json object = {{"name", study.name},   {"title", study.title},
+                         {"seed", study.seed},   {"replicates", study.replicates},
+                         {"paper", study.paper}, {"bench", to_json(study.bench)}};
   ordered_json& grids = object["grid"] = ordered_json::array();
   for (const Grid& grid : study.grids) {
     grids.push_back({{"id", grid.id}, {"loops_rad_hz", to_json(grid.loops)}});

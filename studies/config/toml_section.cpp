@@ -77,8 +77,7 @@ std::optional<std::int64_t> TomlSection::integer(std::string_view key, std::int6
     return std::nullopt;
   }
   if (value->get() < low || value->get() > high) {
-    refuse_at(*found,
-              fmt::format("'{}' = {} is out of range", name_of(key), value->get()),
+    refuse_at(*found, fmt::format("'{}' = {} is out of range", name_of(key), value->get()),
               fmt::format("give a whole number between {} and {}", low, high));
     return std::nullopt;
   }
@@ -89,7 +88,8 @@ std::optional<bool> TomlSection::flag(std::string_view key) {
   const toml::node* found = node(key);
   if (found == nullptr) return std::nullopt;
   if (const auto* value = found->as_boolean()) return value->get();
-  refuse_at(*found, fmt::format("'{}' is neither true nor false", name_of(key)), "write true or false");
+  refuse_at(*found, fmt::format("'{}' is neither true nor false", name_of(key)),
+            "write true or false");
   return std::nullopt;
 }
 
@@ -103,8 +103,10 @@ std::vector<std::string> TomlSection::texts(std::string_view key) {
   }
   std::vector<std::string> words;
   for (const toml::node& entry : *list) {
-    if (const auto* word = entry.as_string()) words.push_back(word->get());
-    else refuse_at(entry, fmt::format("an entry of '{}' is not text", name_of(key)));
+    if (const auto* word = entry.as_string())
+      words.push_back(word->get());
+    else
+      refuse_at(entry, fmt::format("an entry of '{}' is not text", name_of(key)));
   }
   return words;
 }

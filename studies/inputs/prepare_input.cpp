@@ -74,8 +74,8 @@ Result<PreparedInput> take_from_dataset(const RecordingSet& set, const InputPlan
 }  // namespace
 
 const StudyRecording* PreparedInput::find(std::string_view id) const {
-  const auto found = std::ranges::find(recordings, id,
-                                       [](const StudyRecording& r) -> std::string_view { return r.record.id; });
+  const auto found = std::ranges::find(
+      recordings, id, [](const StudyRecording& r) -> std::string_view { return r.record.id; });
   return found == recordings.end() ? nullptr : &*found;
 }
 

@@ -27,7 +27,7 @@ struct StudyRecording {
 struct PreparedInput {
   const InputPlan* plan = nullptr;
   Rig rig = Rig::locked;
-  std::string says;     ///< what the input is, in a sentence
+  std::string says;  ///< what the input is, in a sentence
   std::string source;
   std::string license;
   DisplayUnits units;

@@ -50,8 +50,10 @@ PowerLaw fit_power_law() {
   while (high - low > 1e-7) {
     const double left = low + (high - low) / 3.0;
     const double right = high - (high - low) / 3.0;
-    if (at(left).rms_percent < at(right).rms_percent) high = right;
-    else low = left;
+    if (at(left).rms_percent < at(right).rms_percent)
+      high = right;
+    else
+      low = left;
   }
   const ScaledShape best = at(low);
   return {best.coefficient, low, best.rms_percent};
@@ -69,7 +71,8 @@ double vandermonde_condition(double range) {
     Real power = x;
     for (int j = 0; j < 5; ++j, power *= x * x) design(i, j) = power;
   }
-  const Eigen::JacobiSVD<Eigen::Matrix<Real, Eigen::Dynamic, 5>, Eigen::ColPivHouseholderQRPreconditioner>
+  const Eigen::JacobiSVD<Eigen::Matrix<Real, Eigen::Dynamic, 5>,
+                         Eigen::ColPivHouseholderQRPreconditioner>
       svd(design);
   return static_cast<double>(svd.singularValues()(0) / svd.singularValues()(4));
 }

@@ -4,9 +4,9 @@ namespace flexspline::studies {
 
 /// c (v/v0)^n through Table I's g^-1 on [0, v0], by least squares.
 struct PowerLaw {
-  double coefficient = 0.0;    ///< Nm
+  double coefficient = 0.0;  ///< Nm
   double exponent = 0.0;
-  double rms_percent = 0.0;    ///< of the largest g^-1
+  double rms_percent = 0.0;  ///< of the largest g^-1
 };
 PowerLaw fit_power_law();
 

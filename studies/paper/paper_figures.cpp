@@ -78,26 +78,27 @@ Drawn prepare(const PaperExperiment& experiment, const Law& f, const Law& g) {
     drawn.g_table.push_back(kDamping.value(v));
   }
   const double start = drawn.time.back() - 1.0 / experiment.sine.frequency_hz;
-  drawn.cycle = static_cast<std::size_t>(std::ranges::lower_bound(drawn.time, start) -
-                                         drawn.time.begin());
+  drawn.cycle =
+      static_cast<std::size_t>(std::ranges::lower_bound(drawn.time, start) - drawn.time.begin());
   return drawn;
 }
 
 ordered_json time_figures(const Drawn& d) {
   const auto all = kept_indices(0, d.time.size());
   const auto cycle = kept_indices(d.cycle, d.time.size());
-  const auto of = [](const Series& y, const std::vector<std::size_t>& kept) { return at_indices(y, kept); };
+  const auto of = [](const Series& y, const std::vector<std::size_t>& kept) {
+    return at_indices(y, kept);
+  };
   ordered_json figures = ordered_json::array();
-  figures.push_back(figure(
-      "figure_4", "Measured angular displacement", "t / s", "theta_1 / deg",
-      "Motor angle of the virtual bench: 10 deg, 0.005 Hz, from rest.",
-      {series("measured", of(d.time, all), of(d.motor_angle, all), "line")}));
+  figures.push_back(figure("figure_4", "Measured angular displacement", "t / s", "theta_1 / deg",
+                           "Motor angle of the virtual bench: 10 deg, 0.005 Hz, from rest.",
+                           {series("measured", of(d.time, all), of(d.motor_angle, all), "line")}));
   figures.push_back(figure("figure_5", "Measured transmitted torque", "t / s", "tau / Nm",
                            "Not a pure sine: the stiffness is nonlinear.",
                            {series("measured", of(d.time, all), of(d.torque, all), "line")}));
-  figures.push_back(figure("figure_6", "Measured steady state hysteresis curve", "phi / deg",
-                           "tau / Nm", "The last cycle.",
-                           {series("measured", of(d.torsion, cycle), of(d.torque, cycle), "line")}));
+  figures.push_back(figure(
+      "figure_6", "Measured steady state hysteresis curve", "phi / deg", "tau / Nm",
+      "The last cycle.", {series("measured", of(d.torsion, cycle), of(d.torque, cycle), "line")}));
   figures.push_back(figure(
       "figure_7", "Measured and estimated angular velocity", "t / s", "phi' / (deg/s)",
       "Differentiation drowns the speed in encoder noise; the paper takes the derivative of a pure "
@@ -114,9 +115,11 @@ void add_function_figures(const Drawn& d, ordered_json& figures) {
   figures.push_back(figure("figure_8", "Measured stiffness function", "phi / deg", "f / Nm",
                            "Mean of the two torques at each torsion, eq. (18).", {f_points}));
   figures.push_back(figure("figure_9", "Measured viscous damping function", "phi' / (deg/s)",
-                           "g^-1 / Nm", "Half their difference, eq. (17), over the speed.", {g_points}));
+                           "g^-1 / Nm", "Half their difference, eq. (17), over the speed.",
+                           {g_points}));
   figures.push_back(figure("figure_10", "Measured and estimated stiffness function", "phi / deg",
-                           "f / Nm", "The fit to the virtual recording beside Table I as published.",
+                           "f / Nm",
+                           "The fit to the virtual recording beside Table I as published.",
                            {f_points, series("estimated", locus.torsion, d.f, "line"),
                             series("Table I", locus.torsion, d.f_table, "line")}));
   figures.push_back(figure("figure_11", "Measured and estimated viscous damping function",

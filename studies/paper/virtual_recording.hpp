@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "flexspline/core/estimate.hpp"
 #include "flexspline/core/error.hpp"
+#include "flexspline/core/estimate.hpp"
 #include "flexspline/core/recording.hpp"
 #include "flexspline/core/signals.hpp"
 #include "flexspline/studies/study_config.hpp"
@@ -23,8 +23,8 @@ struct PaperExperiment {
 /// Errors: the truth table_i, the bench or the method midpoint_polynomial fail.
 Result<PaperExperiment> repeat_experiment(const StudyConfig& study);
 
-/// Eqs. (15)-(19) on all steady cycles: at every torsion the mean and half the difference of the two
-/// torques. deg, deg/s, Nm.
+/// Eqs. (15)-(19) on all steady cycles: at every torsion the mean and half the difference of the
+/// two torques. deg, deg/s, Nm.
 struct MidpointLocus {
   std::vector<double> torsion;
   std::vector<double> mean;
@@ -33,8 +33,8 @@ struct MidpointLocus {
 };
 MidpointLocus midpoint_locus(const PaperExperiment& experiment);
 
-/// A coefficient in Table I's units with its standard deviation, as the method names and gives it; NaN
-/// where it does not.
+/// A coefficient in Table I's units with its standard deviation, as the method names and gives it;
+/// NaN where it does not.
 struct Recovered {
   double value;
   double std;

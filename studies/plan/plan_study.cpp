@@ -40,7 +40,8 @@ void train_on_bench(CasePlan& plan, const StudyConfig& study) {
   }
 }
 
-/// The training recording with the largest motion, among those with a frequency where there are any.
+/// The training recording with the largest motion, among those with a frequency where there are
+/// any.
 const Recording* largest(const RecordingSet& set, const std::vector<TorsionRecord>& records) {
   const Recording* best = nullptr;
   std::pair<bool, double> rank{false, -1.0};
@@ -59,7 +60,8 @@ Result<void> train_on_dataset(CasePlan& plan, const RecordingSet& set) {
   if (!records) return tl::unexpected(records.error());
   const Recording* one = plan.estimator->train == kTrainOne ? largest(set, *records) : nullptr;
   for (const Recording& recording : set.recordings) {
-    if (recording.split == Split::holdout) plan.holdout.push_back(recording.id);
+    if (recording.split == Split::holdout)
+      plan.holdout.push_back(recording.id);
     else if (one == nullptr || one == &recording) {
       plan.train.push_back(recording.id);
       plan.train_samples += static_cast<long>(recording.time.size());
@@ -139,8 +141,8 @@ Result<StudyPlan> plan_study(const StudyConfig& study, const std::string& build_
         if (!planned) return tl::unexpected(planned.error());
         planned->depends_on = case_hash(plan, *planned, build_id);
         plan.estimated_seconds += kSecondsPerSample * static_cast<double>(planned->train_samples);
-        plan.estimated_bytes += kBytesPerRecording *
-                                static_cast<double>(planned->train.size() + planned->holdout.size());
+        plan.estimated_bytes += kBytesPerRecording * static_cast<double>(planned->train.size() +
+                                                                         planned->holdout.size());
         plan.cases.push_back(std::move(*planned));
       }
       plan.inputs.push_back(std::move(prepared));

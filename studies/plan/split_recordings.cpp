@@ -25,8 +25,10 @@ namespace {
 std::string follow_the_marks(std::span<TorsionRecord> records) {
   std::size_t train = 0;
   for (TorsionRecord& record : records) {
-    if (record.split != Split::train) record.split = Split::holdout;
-    else ++train;
+    if (record.split != Split::train)
+      record.split = Split::holdout;
+    else
+      ++train;
   }
   return fmt::format("{} of {} recordings are marked for training; the others are held out", train,
                      records.size());
@@ -48,7 +50,9 @@ std::vector<std::size_t> positions_held_out(std::size_t n) {
 }  // namespace
 
 std::string split_recordings(std::span<TorsionRecord> records) {
-  const auto is = [](Split split) { return [split](const TorsionRecord& r) { return r.split == split; }; };
+  const auto is = [](Split split) {
+    return [split](const TorsionRecord& r) { return r.split == split; };
+  };
   if (std::ranges::any_of(records, is(Split::train))) return follow_the_marks(records);
   std::vector<TorsionRecord*> open;
   for (TorsionRecord& record : records) {
@@ -67,7 +71,8 @@ std::string split_recordings(std::span<TorsionRecord> records) {
     return "the only recording is trained on; there is none to hold out";
   }
   return fmt::format(
-      "no recording is marked for training: {} of {} unmarked ones held out by the automatic rule{}",
+      "no recording is marked for training: {} of {} unmarked ones held out by the automatic "
+      "rule{}",
       held.size(), open.size(), marked > 0 ? fmt::format(", {} marked as hold-out", marked) : "");
 }
 

@@ -12,7 +12,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-enum Dimension : std::size_t { kInput, kEstimator, kAmplitude, kFrequency, kReplicate, kParameter, kRow };
+enum Dimension : std::size_t {
+  kInput,
+  kEstimator,
+  kAmplitude,
+  kFrequency,
+  kReplicate,
+  kParameter,
+  kRow
+};
 
 double number(const ordered_json& value) { return value.is_number() ? value.get<double>() : kNone; }
 
@@ -39,7 +47,8 @@ class Gatherer {
   Gatherer(const StudyPlan& plan, const std::filesystem::path& folder) : plan_(plan) {
     for (const CasePlan& one : plan.cases) {
       auto read = data::read_artefact(folder / "cases" / (one.key + ".json"), kCaseSchema);
-      if (read && read->value("status", "") == "done") artefacts_.emplace_back(&one, std::move(*read));
+      if (read && read->value("status", "") == "done")
+        artefacts_.emplace_back(&one, std::move(*read));
     }
   }
 
@@ -54,12 +63,14 @@ class Gatherer {
 
  private:
   void make_axes() {
-    table_.axes = {{"input", {}, {}, ""},          {"estimator", {}, {}, ""},
-                   {"amplitude", {}, {}, "degree"}, {"frequency", {}, {}, "Hz"},
-                   {"replicate", {}, {}, "1"},      {"parameter", {}, {}, ""},
-                   {"row", {}, {}, "1"}};
-    for (const InputConfig& input : plan_.study->inputs) table_.axes[kInput].labels.push_back(input.id);
-    for (const EstimatorConfig& row : plan_.study->estimators) table_.axes[kEstimator].labels.push_back(row.id);
+    table_.axes = {
+        {"input", {}, {}, ""},       {"estimator", {}, {}, ""},  {"amplitude", {}, {}, "degree"},
+        {"frequency", {}, {}, "Hz"}, {"replicate", {}, {}, "1"}, {"parameter", {}, {}, ""},
+        {"row", {}, {}, "1"}};
+    for (const InputConfig& input : plan_.study->inputs)
+      table_.axes[kInput].labels.push_back(input.id);
+    for (const EstimatorConfig& row : plan_.study->estimators)
+      table_.axes[kEstimator].labels.push_back(row.id);
     for (int r = 0; r < plan_.study->replicates; ++r) table_.axes[kReplicate].values.push_back(r);
     for (const auto& [one, artefact] : artefacts_) {
       for (const ordered_json& parameter : artefact.at("estimate").at("parameters")) {
@@ -81,7 +92,8 @@ class Gatherer {
   }
 
   /// A variable full of NaN.
-  Variable& add(const char* name, const char* says, const char* unit, std::vector<std::size_t> axes) {
+  Variable& add(const char* name, const char* says, const char* unit,
+                std::vector<std::size_t> axes) {
     std::size_t size = 1;
     for (const std::size_t axis : axes) size *= table_.axes[axis].size();
     return table_.variables.emplace_back(
@@ -96,21 +108,26 @@ class Gatherer {
     return variable.values.at(offset);
   }
 
-  std::size_t input_of(const CasePlan& one) const { return index_in(table_.axes[kInput].labels, one.input->id); }
+  std::size_t input_of(const CasePlan& one) const {
+    return index_in(table_.axes[kInput].labels, one.input->id);
+  }
   std::size_t estimator_of(const CasePlan& one) const {
     return index_in(table_.axes[kEstimator].labels, one.estimator->id);
   }
 
   void add_errors() {
-    Variable& errors = add("error_percent", "hold-out rms error of the effort, of the recording's peak", "percent",
-                           {kInput, kEstimator, kAmplitude, kFrequency, kReplicate});
+    Variable& errors =
+        add("error_percent", "hold-out rms error of the effort, of the recording's peak", "percent",
+            {kInput, kEstimator, kAmplitude, kFrequency, kReplicate});
     for (const auto& [one, artefact] : artefacts_) {
       for (const ordered_json& recording : artefact.at("recordings")) {
         if (!on_grid(*one, recording)) continue;
-        const std::size_t a = index_in(table_.axes[kAmplitude].values, tidy(number(recording.at("amplitude"))));
-        const std::size_t f = index_in(table_.axes[kFrequency].values, tidy(number(recording.at("frequency_hz"))));
-        at(errors, {input_of(*one), estimator_of(*one), a, f, static_cast<std::size_t>(one->replicate)}) =
-            error_of(recording);
+        const std::size_t a =
+            index_in(table_.axes[kAmplitude].values, tidy(number(recording.at("amplitude"))));
+        const std::size_t f =
+            index_in(table_.axes[kFrequency].values, tidy(number(recording.at("frequency_hz"))));
+        at(errors, {input_of(*one), estimator_of(*one), a, f,
+                    static_cast<std::size_t>(one->replicate)}) = error_of(recording);
       }
     }
   }
@@ -119,9 +136,10 @@ class Gatherer {
     Variable& variable = add(name, says, "", {kInput, kEstimator, kReplicate, kParameter});
     for (const auto& [one, artefact] : artefacts_) {
       for (const ordered_json& parameter : artefact.at("estimate").at("parameters")) {
-        const std::size_t p = index_in(table_.axes[kParameter].labels, parameter.at("name").get<std::string>());
-        at(variable, {input_of(*one), estimator_of(*one), static_cast<std::size_t>(one->replicate), p}) =
-            number(parameter.at(key));
+        const std::size_t p =
+            index_in(table_.axes[kParameter].labels, parameter.at("name").get<std::string>());
+        at(variable, {input_of(*one), estimator_of(*one), static_cast<std::size_t>(one->replicate),
+                      p}) = number(parameter.at(key));
       }
     }
   }
@@ -130,7 +148,12 @@ class Gatherer {
     Variable cases{"row_case", "key of the case", "", {kRow}, {}, {}};
     Variable ids{"row_recording", "id of the recording", "", {kRow}, {}, {}};
     Variable roles{"row_role", "train or holdout", "", {kRow}, {}, {}};
-    Variable errors{"row_error_percent", "rms error of the effort, of the recording's peak", "percent", {kRow}, {}, {}};
+    Variable errors{"row_error_percent",
+                    "rms error of the effort, of the recording's peak",
+                    "percent",
+                    {kRow},
+                    {},
+                    {}};
     for (const auto& [one, artefact] : artefacts_) {
       for (const ordered_json& recording : artefact.at("recordings")) {
         cases.labels.push_back(one->key);
@@ -139,7 +162,8 @@ class Gatherer {
         errors.values.push_back(error_of(recording));
       }
     }
-    for (Variable* variable : {&cases, &ids, &roles, &errors}) table_.variables.push_back(std::move(*variable));
+    for (Variable* variable : {&cases, &ids, &roles, &errors})
+      table_.variables.push_back(std::move(*variable));
   }
 
   const StudyPlan& plan_;

@@ -25,7 +25,8 @@ ordered_json program(const std::map<std::string, std::string>& versions) {
 
 }  // namespace
 
-Result<void> write_ro_crate(const StudyPlan& plan, const std::map<std::string, std::string>& versions,
+Result<void> write_ro_crate(const StudyPlan& plan,
+                            const std::map<std::string, std::string>& versions,
                             const std::filesystem::path& folder) {
   ordered_json graph = ordered_json::array();
   graph.push_back({{"@id", "ro-crate-metadata.json"},
@@ -60,7 +61,8 @@ Result<void> write_ro_crate(const StudyPlan& plan, const std::map<std::string, s
   graph.push_back(root);
   graph.push_back(program(versions));
   graph.push_back(action);
-  const ordered_json crate = {{"@context", "https://w3id.org/ro/crate/1.1/context"}, {"@graph", graph}};
+  const ordered_json crate = {{"@context", "https://w3id.org/ro/crate/1.1/context"},
+                              {"@graph", graph}};
   return write_file(folder / "ro-crate-metadata.json", crate.dump(2) + "\n");
 }
 

@@ -26,7 +26,8 @@ class NetcdfFile {
     return id;
   }
   void text(int variable, const char* key, const std::string& value) {
-    if (ok() && !value.empty()) check(nc_put_att_text(file_, variable, key, value.size(), value.c_str()));
+    if (ok() && !value.empty())
+      check(nc_put_att_text(file_, variable, key, value.size(), value.c_str()));
   }
   void variable(const Variable& one, const std::vector<int>& dimensions) {
     if (!ok()) return;

@@ -15,9 +15,12 @@ using nlohmann::ordered_json;
 
 ordered_json error_json(const Error& error) {
   constexpr std::pair<ErrorCode, const char*> names[] = {
-      {ErrorCode::usage, "usage"},           {ErrorCode::bad_data, "bad_data"},
-      {ErrorCode::input_missing, "input_missing"}, {ErrorCode::defect, "defect"},
-      {ErrorCode::cannot_write, "cannot_write"},   {ErrorCode::interrupted, "interrupted"},
+      {ErrorCode::usage, "usage"},
+      {ErrorCode::bad_data, "bad_data"},
+      {ErrorCode::input_missing, "input_missing"},
+      {ErrorCode::defect, "defect"},
+      {ErrorCode::cannot_write, "cannot_write"},
+      {ErrorCode::interrupted, "interrupted"},
       {ErrorCode::numerics, "numerics"}};
   const auto name = std::ranges::find(names, error.code, &std::pair<ErrorCode, const char*>::first);
   return {{"code", name == std::end(names) ? "defect" : name->second},
@@ -62,24 +65,25 @@ double amplitude_of(const StudyRecording& recording) {
   return 0.5 * motion_range(recording.record);
 }
 
-ordered_json case_json(const CasePlan& plan, const PreparedInput* input, const CaseOutcome& outcome) {
+ordered_json case_json(const CasePlan& plan, const PreparedInput* input,
+                       const CaseOutcome& outcome) {
   const bool done = outcome.estimate.has_value() && input != nullptr;
-  ordered_json object = {{"schema", kCaseSchema},
-                         {"key", plan.key},
-                         {"input", plan.input->id},
-                         {"estimator", plan.estimator->id},
-                         {"title", plan.estimator->title},
-                         {"method", plan.estimator->method},
-                         {"train", plan.train},
-                         {"replicate", plan.replicate},
-                         {"seed", plan.seed},
-                         {"depends_on", plan.depends_on},
-                         {"status", done ? "done" : "failed"},
-                         {"failure", nullptr},
-                         {"estimate", nullptr},
-                         {"recordings", ordered_json::array()},
-                         {"function_errors_percent",
-                          {{"f", nullptr}, {"g_inverse", nullptr}, {"h", nullptr}}}};
+  ordered_json object = {
+      {"schema", kCaseSchema},
+      {"key", plan.key},
+      {"input", plan.input->id},
+      {"estimator", plan.estimator->id},
+      {"title", plan.estimator->title},
+      {"method", plan.estimator->method},
+      {"train", plan.train},
+      {"replicate", plan.replicate},
+      {"seed", plan.seed},
+      {"depends_on", plan.depends_on},
+      {"status", done ? "done" : "failed"},
+      {"failure", nullptr},
+      {"estimate", nullptr},
+      {"recordings", ordered_json::array()},
+      {"function_errors_percent", {{"f", nullptr}, {"g_inverse", nullptr}, {"h", nullptr}}}};
   if (!done) {
     object["failure"] = error_json(outcome.estimate.error());
     return object;

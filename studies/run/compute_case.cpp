@@ -33,10 +33,10 @@ Result<Estimate> estimate_of(const CasePlan& plan, const PreparedInput& input) {
   if (!estimate) return estimate;
   if (estimate->termination == Termination::not_run ||
       estimate->termination == Termination::failed) {
-    return failure(ErrorCode::numerics,
-                   fmt::format("{} ended with '{}'", plan.estimator->method,
-                               name_of(estimate->termination)),
-                   estimate->notes.empty() ? "" : estimate->notes.front());
+    return failure(
+        ErrorCode::numerics,
+        fmt::format("{} ended with '{}'", plan.estimator->method, name_of(estimate->termination)),
+        estimate->notes.empty() ? "" : estimate->notes.front());
   }
   return estimate;
 }
@@ -66,8 +66,10 @@ CaseOutcome compute_case(const CasePlan& plan, const Result<PreparedInput>& inpu
   try {
     return compute(plan, *input);
   } catch (const std::exception& error) {
-    return failed({ErrorCode::defect, fmt::format("{}: {}", plan.key, error.what()),
-                   "please report it with the study file", {}});
+    return failed({ErrorCode::defect,
+                   fmt::format("{}: {}", plan.key, error.what()),
+                   "please report it with the study file",
+                   {}});
   }
 }
 

@@ -25,7 +25,8 @@ std::vector<std::size_t> shown_samples(const TorsionRecord& record) {
 double peak_of(const TorsionRecord& record) {
   double peak = 0.0;
   for (std::size_t i = 0; i < record.effort.size(); ++i) {
-    if (i >= record.valid.size() || record.valid[i]) peak = std::max(peak, std::abs(record.effort[i]));
+    if (i >= record.valid.size() || record.valid[i])
+      peak = std::max(peak, std::abs(record.effort[i]));
   }
   return peak;
 }
@@ -41,8 +42,7 @@ ordered_json recording_json(const StudyRecording& recording, const DisplayUnits&
           {"samples", record.time.size()},
           {"peak_effort", shown(loop ? loop->peak_effort : peak_of(record), units.effort)},
           {"half_height", loop ? shown(loop->half_height, units.effort) : kNotComputed},
-          {"loop_area",
-           loop ? shown(shown(loop->area, units.effort), units.motion) : kNotComputed},
+          {"loop_area", loop ? shown(shown(loop->area, units.effort), units.motion) : kNotComputed},
           {"time", at_indices(record.time, kept)},
           {"motion", shown(at_indices(record.motion, kept), units.motion)},
           {"effort", shown(at_indices(record.effort, kept), units.effort)}};

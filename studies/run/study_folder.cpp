@@ -40,8 +40,9 @@ Result<void> write_lock(const StudyPlan& plan, const RunSettings& settings) {
     lock["seeds"].push_back(seed_of(*plan.study, replicate));
   }
   for (const CasePlan& one : plan.cases) lock["cases"][one.key] = one.depends_on;
-  return write_file(settings.folder / "study.lock.toml",
-                    "# What this folder was computed from. Written by flexspline.\n" + toml_text(lock));
+  return write_file(
+      settings.folder / "study.lock.toml",
+      "# What this folder was computed from. Written by flexspline.\n" + toml_text(lock));
 }
 
 void set_aside(const std::filesystem::path& folder, const std::set<std::string>& kept,
@@ -50,11 +51,13 @@ void set_aside(const std::filesystem::path& folder, const std::set<std::string>&
   std::vector<std::filesystem::path> stale;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::filesystem::path& path = entry.path();
-    if (path.extension() == ".json" && !kept.contains(path.filename().string())) stale.push_back(path);
+    if (path.extension() == ".json" && !kept.contains(path.filename().string()))
+      stale.push_back(path);
   }
   for (const std::filesystem::path& path : stale) {
     std::filesystem::rename(path, path.string() + ".stale", ignored);
-    if (settings.log) settings.log(fmt::format("{} is not part of the study any more: set aside", path.string()));
+    if (settings.log)
+      settings.log(fmt::format("{} is not part of the study any more: set aside", path.string()));
   }
 }
 

@@ -23,8 +23,8 @@ std::optional<Earlier> find_valid(const std::filesystem::path& file, std::string
 /// study.lock.toml: the configuration as understood, seeds, hashes, versions. Errors: cannot_write.
 Result<void> write_lock(const StudyPlan& plan, const RunSettings& settings);
 
-/// Renames every .json of a folder that is not in the list to <name>.stale, so that reports leave it
-/// out and nothing is lost.
+/// Renames every .json of a folder that is not in the list to <name>.stale, so that reports leave
+/// it out and nothing is lost.
 void set_aside(const std::filesystem::path& folder, const std::set<std::string>& kept,
                const RunSettings& settings);
 

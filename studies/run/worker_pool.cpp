@@ -14,12 +14,14 @@ bool run_tasks(const std::vector<std::function<bool()>>& tasks, int workers,
     while (!broken && !(stop != nullptr && *stop)) {
       const std::size_t task = next++;
       if (task >= tasks.size()) return;
-      if (tasks[task]()) ++done;
-      else broken = true;
+      if (tasks[task]())
+        ++done;
+      else
+        broken = true;
     }
   };
-  const std::size_t wanted =
-      workers > 0 ? static_cast<std::size_t>(workers) : std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t wanted = workers > 0 ? static_cast<std::size_t>(workers)
+                                         : std::max(1U, std::thread::hardware_concurrency());
   {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < std::min(wanted, tasks.size()); ++i) threads.emplace_back(work);

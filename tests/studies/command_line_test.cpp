@@ -109,7 +109,9 @@ TEST_F(CommandLine, BadStudyExitsWith65AndSaysEverything) {
 TEST_F(CommandLine, MissingInputExitsWith66) {
   EXPECT_EQ(call("run " + path("none.toml") + " --out " + path("out")).code, 66);
   EXPECT_EQ(call("report " + path("none")).code, 66);
-  EXPECT_EQ(call("fit " + path("none") + " --estimator midpoint_polynomial --out " + path("out")).code, 66);
+  EXPECT_EQ(
+      call("fit " + path("none") + " --estimator midpoint_polynomial --out " + path("out")).code,
+      66);
 }
 
 TEST_F(CommandLine, FolderThatCannotBeWrittenExitsWith73AndIsNamed) {
@@ -138,12 +140,15 @@ TEST_F(CommandLine, SchemaIsJsonAndKnowsEveryKeyOfThePaperStudy) {
 
 TEST_F(CommandLine, SimulateWritesADataSetThatFits) {
   // f = 10 x + 5 x^3 and g^-1 = 3 z, see the file.
-  folder_.write("model.toml", read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));
-  const Finished done = call("simulate " + path("model.toml") +
-                             " --excitation sine --amplitude 0.2deg --frequency 0.005Hz --out " + path("set"));
+  folder_.write("model.toml",
+                read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));
+  const Finished done =
+      call("simulate " + path("model.toml") +
+           " --excitation sine --amplitude 0.2deg --frequency 0.005Hz --out " + path("set"));
   ASSERT_EQ(done.code, 0) << done.output;
   EXPECT_EQ(call("validate " + path("set")).code, 0);
-  const Finished fit = call("fit " + path("set") + " --estimator midpoint_polynomial --json --out " + path("fit"));
+  const Finished fit =
+      call("fit " + path("set") + " --estimator midpoint_polynomial --json --out " + path("fit"));
   ASSERT_EQ(fit.code, 0) << fit.output;
   const auto estimate = nlohmann::json::parse(fit.result);
   EXPECT_LT(estimate["rmse"]["train"]["sine"].get<double>(), 1e-3 * 15.0);
@@ -151,9 +156,11 @@ TEST_F(CommandLine, SimulateWritesADataSetThatFits) {
 }
 
 TEST_F(CommandLine, SimulateRefusesAnAmplitudeInTheWrongUnit) {
-  folder_.write("model.toml", read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));
-  const Finished done = call("simulate " + path("model.toml") +
-                             " --excitation sine --amplitude 0.2Nm --frequency 0.005Hz --out " + path("set"));
+  folder_.write("model.toml",
+                read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));
+  const Finished done =
+      call("simulate " + path("model.toml") +
+           " --excitation sine --amplitude 0.2Nm --frequency 0.005Hz --out " + path("set"));
   EXPECT_EQ(done.code, 2);
   EXPECT_THAT(done.output, HasSubstr("unit of angle"));
 }

@@ -17,10 +17,11 @@ StudyConfig load(const ScratchFolder& folder, const std::string& text) {
 TEST(Plan, IsInputsTimesTheirEstimatorsTimesReplicates) {
   const ScratchFolder folder;
   const auto study = load(
-      folder, kHead + "seed = 10\nreplicates = 3\n" + kGrid + kInput +
-                  "[[input]]\nid = \"h_even\"\ntruth = \"h_even\"\nholdout = \"point\"\n" + kEstimator +
-                  "[[estimator]]\nid = \"pooled\"\nmethod = \"midpoint_pooled\"\ntrain = \"point\"\n"
-                  "inputs = [\"h_even\"]\n");
+      folder,
+      kHead + "seed = 10\nreplicates = 3\n" + kGrid + kInput +
+          "[[input]]\nid = \"h_even\"\ntruth = \"h_even\"\nholdout = \"point\"\n" + kEstimator +
+          "[[estimator]]\nid = \"pooled\"\nmethod = \"midpoint_pooled\"\ntrain = \"point\"\n"
+          "inputs = [\"h_even\"]\n");
   const auto plan = plan_study(study, "build");
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(plan->inputs.size(), 6U);
@@ -57,7 +58,8 @@ TEST(Plan, HashFollowsWhatTheResultDependsOnAndNothingElse) {
   };
   const std::string text = kHead + kGrid + kInput + kEstimator;
   const std::string base = hash(text);
-  EXPECT_EQ(hash(kHead + "title = \"other words\"\nreplicates = 2\n" + kGrid + kInput + kEstimator), base);
+  EXPECT_EQ(hash(kHead + "title = \"other words\"\nreplicates = 2\n" + kGrid + kInput + kEstimator),
+            base);
   EXPECT_NE(hash(text, "other"), base);
   EXPECT_NE(hash(kHead + "seed = 2\n" + kGrid + kInput + kEstimator), base);
   EXPECT_NE(hash(kHead + "[bench]\ncycles = 6\n" + kGrid + kInput + kEstimator), base);
@@ -69,7 +71,8 @@ TEST(Plan, PaperStudyCoversEveryTruth) {
   ASSERT_TRUE(study.has_value()) << study.error().message();
   std::set<std::string> used;
   for (const InputConfig& input : study->inputs) used.insert(input.truth);
-  for (const data::TruthRow& row : data::truths()) EXPECT_TRUE(used.contains(std::string(row.id))) << row.id;
+  for (const data::TruthRow& row : data::truths())
+    EXPECT_TRUE(used.contains(std::string(row.id))) << row.id;
   EXPECT_TRUE(study->paper);
 }
 

@@ -15,7 +15,8 @@ namespace {
 using nlohmann::ordered_json;
 
 const std::string kBench =
-    "[bench]\nangle_noise = { value = 0.1, unit = \"%\" }\ntorque_noise_white = { value = 0.1, unit = \"%\" }\n"
+    "[bench]\nangle_noise = { value = 0.1, unit = \"%\" }\ntorque_noise_white = { value = 0.1, "
+    "unit = \"%\" }\n"
     "cycles = 3\nsamples_per_cycle = 200\n";
 const std::string kSecondEstimator =
     "[[estimator]]\nid = \"pooled\"\nmethod = \"midpoint_pooled\"\ntrain = \"point\"\n";
@@ -55,7 +56,8 @@ TEST_F(RunStudy, WritesEveryArtefact) {
   EXPECT_EQ(summary->computed, 2U);
   EXPECT_TRUE(summary->failed.empty());
   EXPECT_TRUE(exists(out() / "study.lock.toml"));
-  EXPECT_TRUE(data::read_artefact(out() / "inputs" / "unity.json", "flexspline-input/1").has_value());
+  EXPECT_TRUE(
+      data::read_artefact(out() / "inputs" / "unity.json", "flexspline-input/1").has_value());
   const ordered_json one = artefact("unity--paper--r0");
   EXPECT_EQ(one["status"], "done");
   ASSERT_EQ(one["recordings"].size(), 2U);
@@ -115,7 +117,8 @@ TEST_F(RunStudy, CasesNoLongerInTheStudyAreSetAside) {
 }
 
 TEST_F(RunStudy, ReplicatesDifferByTheirNoise) {
-  ASSERT_TRUE(run(load(kHead + "replicates = 2\n" + kBench + kGrid + kInput + kEstimator)).has_value());
+  ASSERT_TRUE(
+      run(load(kHead + "replicates = 2\n" + kBench + kGrid + kInput + kEstimator)).has_value());
   const auto first = artefact("unity--paper--r0")["recordings"][0]["rmse"].get<double>();
   const auto second = artefact("unity--paper--r1")["recordings"][0]["rmse"].get<double>();
   EXPECT_NE(first, second);
@@ -171,8 +174,8 @@ RecordingSet ramp() {
 
 TEST_F(RunStudy, FailingCaseDoesNotStopTheStudy) {
   ASSERT_TRUE(data::write_dataset(folder_.path() / "ramp", ramp()).has_value());
-  const auto study = load(kHead + kBench + kGrid + "[[input]]\nid = \"ramp\"\ndataset = \"ramp\"\n" +
-                          kInput + kEstimator);
+  const auto study = load(kHead + kBench + kGrid +
+                          "[[input]]\nid = \"ramp\"\ndataset = \"ramp\"\n" + kInput + kEstimator);
   const auto summary = run(study);
   ASSERT_TRUE(summary.has_value()) << summary.error().message();
   EXPECT_EQ(summary->computed, 2U);
@@ -200,9 +203,9 @@ TEST_F(RunStudy, ResultsAreHdf5AndLeaveNothingHalfWritten) {
 }
 
 TEST_F(RunStudy, MissingDatasetIsNamed) {
-  const auto summary =
-      run(load(kHead + "[[input]]\nid = \"a\"\ndataset = \"nowhere\"\n[[estimator]]\nid = \"paper\"\n"
-                       "method = \"midpoint_polynomial\"\n"));
+  const auto summary = run(
+      load(kHead + "[[input]]\nid = \"a\"\ndataset = \"nowhere\"\n[[estimator]]\nid = \"paper\"\n"
+                   "method = \"midpoint_polynomial\"\n"));
   ASSERT_FALSE(summary.has_value());
   EXPECT_EQ(summary.error().code, ErrorCode::input_missing);
   EXPECT_NE(summary.error().message().find("nowhere"), std::string::npos);

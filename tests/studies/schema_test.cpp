@@ -26,7 +26,8 @@ TEST(StudySchema, NamesOnlyKeysThatTheReaderKnows) {
   const auto top = schema().at("properties");
   const auto check = [](const std::string& table, const nlohmann::json& properties) {
     EXPECT_TRUE(unknown(table, "no_such_key"));
-    for (const auto& [key, value] : properties.items()) EXPECT_FALSE(unknown(table, key)) << table << key;
+    for (const auto& [key, value] : properties.items())
+      EXPECT_FALSE(unknown(table, key)) << table << key;
   };
   check("", top);
   check("[bench]\n", top.at("bench").at("properties"));

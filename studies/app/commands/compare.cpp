@@ -28,7 +28,8 @@ ordered_json table_of(const studies::StudyConfig& study, const std::filesystem::
   ordered_json rows = ordered_json::array();
   for (const studies::EstimatorConfig& estimator : study.estimators) {
     const std::string key = fmt::format("{}--{}--r0", study.inputs.front().id, estimator.id);
-    const auto artefact = data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+    const auto artefact =
+        data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
     if (!artefact) continue;
     for (const ordered_json& recording : artefact->at("recordings")) {
       rows.push_back({{"estimator", estimator.id},
@@ -45,12 +46,13 @@ std::string as_text(const ordered_json& rows) {
   const auto number = [](const ordered_json& value) {
     return value.is_null() ? std::string("-") : fmt::format("{:.4g}", value.get<double>());
   };
-  std::string text = fmt::format("{:<24} {:<8} {:<28} {:>12} {:>10}", "estimator", "role", "recording",
-                                 "rmse", "% of peak");
+  std::string text = fmt::format("{:<24} {:<8} {:<28} {:>12} {:>10}", "estimator", "role",
+                                 "recording", "rmse", "% of peak");
   for (const ordered_json& row : rows) {
-    text += fmt::format("\n{:<24} {:<8} {:<28} {:>12} {:>10}", row.at("estimator").get<std::string>(),
-                        row.at("role").get<std::string>(), row.at("recording").get<std::string>(),
-                        number(row.at("rmse")), number(row.at("rmse_percent_of_peak")));
+    text +=
+        fmt::format("\n{:<24} {:<8} {:<28} {:>12} {:>10}", row.at("estimator").get<std::string>(),
+                    row.at("role").get<std::string>(), row.at("recording").get<std::string>(),
+                    number(row.at("rmse")), number(row.at("rmse_percent_of_peak")));
   }
   return text;
 }
@@ -77,12 +79,25 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_compare() {
   return {.id = "compare",
           .summary = "Several estimators on one data set, train and hold-out, side by side",
-          .arguments = {{.name = "dataset", .meaning = "folder of a data set", .value = "DATASET", .required = true},
-                        {.name = "--estimators", .meaning = "methods, see flexspline list estimators", .value = "ID,ID,…", .required = true},
-                        {.name = "--train", .meaning = "all training recordings, or the one with the largest motion", .value = "all|one"},
-                        {.name = "--out", .meaning = "folder for artefacts and report", .value = "DIR", .required = true},
+          .arguments = {{.name = "dataset",
+                         .meaning = "folder of a data set",
+                         .value = "DATASET",
+                         .required = true},
+                        {.name = "--estimators",
+                         .meaning = "methods, see flexspline list estimators",
+                         .value = "ID,ID,…",
+                         .required = true},
+                        {.name = "--train",
+                         .meaning = "all training recordings, or the one with the largest motion",
+                         .value = "all|one"},
+                        {.name = "--out",
+                         .meaning = "folder for artefacts and report",
+                         .value = "DIR",
+                         .required = true},
                         {.name = "--jobs", .meaning = "workers", .value = "N"}},
-          .example = "flexspline compare recordings/band-damper --estimators trajectory_ceres,bouc_wen --out out/damper",
+          .example =
+              "flexspline compare recordings/band-damper --estimators trajectory_ceres,bouc_wen "
+              "--out out/damper",
           .run = run};
 }
 

@@ -44,8 +44,8 @@ std::string for_fish() {
     for (const ArgumentInfo& argument : row.arguments) {
       if (!argument.name.starts_with("--")) continue;
       text += fmt::format(
-          "complete -c flexspline -n \"__fish_seen_subcommand_from {}\" -l {} -r -d \"{}\"\n", row.id,
-          argument.name.substr(2), argument.meaning);
+          "complete -c flexspline -n \"__fish_seen_subcommand_from {}\" -l {} -r -d \"{}\"\n",
+          row.id, argument.name.substr(2), argument.meaning);
     }
   }
   text.pop_back();
@@ -54,9 +54,13 @@ std::string for_fish() {
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const std::string shell = arguments.text("shell");
-  if (shell == "bash" || shell == "zsh") console.result(for_bash(shell == "zsh"));
-  else if (shell == "fish") console.result(for_fish());
-  else return failure(ErrorCode::usage, fmt::format("no completion for '{}'", shell), "bash, zsh or fish");
+  if (shell == "bash" || shell == "zsh")
+    console.result(for_bash(shell == "zsh"));
+  else if (shell == "fish")
+    console.result(for_fish());
+  else
+    return failure(ErrorCode::usage, fmt::format("no completion for '{}'", shell),
+                   "bash, zsh or fish");
   return kDone;
 }
 
@@ -65,7 +69,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_completion() {
   return {.id = "completion",
           .summary = "Prints a completion script for bash, zsh or fish",
-          .arguments = {{.name = "shell", .meaning = "bash, zsh or fish", .value = "SHELL", .required = true}},
+          .arguments = {{.name = "shell",
+                         .meaning = "bash, zsh or fish",
+                         .value = "SHELL",
+                         .required = true}},
           .example = "flexspline completion bash > /etc/bash_completion.d/flexspline",
           .run = run};
 }

@@ -37,13 +37,15 @@ ordered_json estimate_of(const ordered_json& artefact) {
 }
 
 std::string summary_of(const ordered_json& estimate) {
-  std::string text = fmt::format("{}: {}, {} parameters, {}", estimate.value("estimator", ""),
-                                 estimate.value("termination", ""), estimate.at("parameters").size(),
-                                 estimate.at("identifiability").value("says", ""));
+  std::string text =
+      fmt::format("{}: {}, {} parameters, {}", estimate.value("estimator", ""),
+                  estimate.value("termination", ""), estimate.at("parameters").size(),
+                  estimate.at("identifiability").value("says", ""));
   for (const char* role : {"train", "holdout"}) {
     for (const auto& [id, value] : estimate.at("rmse").at(role).items()) {
-      text += fmt::format("\n  {:<8} {:<28} rmse {}", role, id,
-                          value.is_null() ? "not computed" : fmt::format("{:.4g}", value.get<double>()));
+      text += fmt::format(
+          "\n  {:<8} {:<28} rmse {}", role, id,
+          value.is_null() ? "not computed" : fmt::format("{:.4g}", value.get<double>()));
     }
   }
   return text;
@@ -64,29 +66,44 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!summary->failed.empty()) return kSomethingFailed;
   const std::string key =
       fmt::format("{}--{}--r0", study->inputs.front().id, study->estimators.front().id);
-  const auto artefact = data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+  const auto artefact =
+      data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
   if (!artefact) return tl::unexpected(artefact.error());
   const ordered_json estimate = estimate_of(*artefact);
   const auto written = write_estimate(folder, estimate);
   if (!written) return tl::unexpected(written.error());
-  console.result(console.json ? estimate.dump(2)
-                              : summary_of(estimate) + "\n" + report.string());
+  console.result(console.json ? estimate.dump(2) : summary_of(estimate) + "\n" + report.string());
   return kDone;
 }
 
 }  // namespace
 
 CommandRow describe_fit() {
-  return {.id = "fit",
-          .summary = "One estimator on one data set: DIR/estimate.json, DIR/model.toml and a report",
-          .arguments = {{.name = "dataset", .meaning = "folder of a data set", .value = "DATASET", .required = true},
-                        {.name = "--estimator", .meaning = "method, see flexspline list estimators", .value = "ID", .required = true},
-                        {.name = "--option", .meaning = "a setting of the method", .value = "NAME=VALUE", .repeats = true},
-                        {.name = "--train", .meaning = "all training recordings, or the one with the largest motion", .value = "all|one"},
-                        {.name = "--out", .meaning = "folder for estimate and report", .value = "DIR", .required = true},
-                        {.name = "--jobs", .meaning = "workers", .value = "N"}},
-          .example = "flexspline fit recordings/iiwa-j1 --estimator trajectory_ceres --out out/j1",
-          .run = run};
+  return {
+      .id = "fit",
+      .summary = "One estimator on one data set: DIR/estimate.json, DIR/model.toml and a report",
+      .arguments = {{.name = "dataset",
+                     .meaning = "folder of a data set",
+                     .value = "DATASET",
+                     .required = true},
+                    {.name = "--estimator",
+                     .meaning = "method, see flexspline list estimators",
+                     .value = "ID",
+                     .required = true},
+                    {.name = "--option",
+                     .meaning = "a setting of the method",
+                     .value = "NAME=VALUE",
+                     .repeats = true},
+                    {.name = "--train",
+                     .meaning = "all training recordings, or the one with the largest motion",
+                     .value = "all|one"},
+                    {.name = "--out",
+                     .meaning = "folder for estimate and report",
+                     .value = "DIR",
+                     .required = true},
+                    {.name = "--jobs", .meaning = "workers", .value = "N"}},
+      .example = "flexspline fit recordings/iiwa-j1 --estimator trajectory_ceres --out out/j1",
+      .run = run};
 }
 
 }  // namespace flexspline::app

@@ -41,17 +41,22 @@ ordered_json list_effects() {
 ordered_json list_laws() {
   ordered_json list = ordered_json::array();
   for (const LawRow& row : laws()) {
-    list.push_back({{"id", row.id}, {"says", row.equation}, {"range", row.range}, {"source", row.source}});
+    list.push_back(
+        {{"id", row.id}, {"says", row.equation}, {"range", row.range}, {"source", row.source}});
   }
   return list;
 }
 
 ordered_json list_rigs() {
   ordered_json list = ordered_json::array();
-  list.push_back({{"id", name_of(Rig::locked)}, {"says", "output locked, motor position-controlled: the paper's bench"}});
-  list.push_back({{"id", name_of(Rig::free)}, {"says", "inertial load on the output, both encoders"}});
-  list.push_back({{"id", name_of(Rig::specimen)}, {"says", "anything whose force follows an imposed displacement"}});
-  list.push_back({{"id", name_of(Rig::servo)}, {"says", "one encoder, no torque sensor; is read, has no torsion view"}});
+  list.push_back({{"id", name_of(Rig::locked)},
+                  {"says", "output locked, motor position-controlled: the paper's bench"}});
+  list.push_back(
+      {{"id", name_of(Rig::free)}, {"says", "inertial load on the output, both encoders"}});
+  list.push_back({{"id", name_of(Rig::specimen)},
+                  {"says", "anything whose force follows an imposed displacement"}});
+  list.push_back({{"id", name_of(Rig::servo)},
+                  {"says", "one encoder, no torque sensor; is read, has no torsion view"}});
   return list;
 }
 
@@ -70,7 +75,8 @@ ordered_json list_estimators() {
       }
       options.push_back(option);
     }
-    list.push_back({{"id", row.id}, {"says", row.summary}, {"source", row.source}, {"options", options}});
+    list.push_back(
+        {{"id", row.id}, {"says", row.summary}, {"source", row.source}, {"options", options}});
   }
   return list;
 }
@@ -105,10 +111,10 @@ struct Catalogue {
   ordered_json (*rows)();
 };
 
-constexpr Catalogue kCatalogues[] = {
-    {"effects", list_effects}, {"laws", list_laws},       {"rigs", list_rigs},
-    {"estimators", list_estimators}, {"kinds", list_kinds}, {"metrics", list_metrics},
-    {"truths", list_truths}};
+constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_laws},
+                                     {"rigs", list_rigs},       {"estimators", list_estimators},
+                                     {"kinds", list_kinds},     {"metrics", list_metrics},
+                                     {"truths", list_truths}};
 
 std::string as_text(const ordered_json& rows) {
   std::string text;
@@ -146,7 +152,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_list() {
   return {.id = "list",
           .summary = "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths",
-          .arguments = {{.name = "catalogue", .meaning = "effects, laws, rigs, estimators, kinds, metrics or truths", .value = "CATALOGUE", .required = true}},
+          .arguments = {{.name = "catalogue",
+                         .meaning = "effects, laws, rigs, estimators, kinds, metrics or truths",
+                         .value = "CATALOGUE",
+                         .required = true}},
           .example = "flexspline list estimators",
           .run = run};
 }

@@ -30,7 +30,8 @@ std::string as_json(const studies::StudyPlan& plan) {
 }
 
 std::string as_text(const studies::StudyPlan& plan) {
-  std::string text = fmt::format("{:<52} {:>6}  {:>7}  {}\n", "case", "seed", "holdout", "trained on");
+  std::string text =
+      fmt::format("{:<52} {:>6}  {:>7}  {}\n", "case", "seed", "holdout", "trained on");
   for (const studies::CasePlan& one : plan.cases) {
     text += fmt::format("{:<52} {:>6}  {:>7}  {}\n", one.key, one.seed, one.holdout.size(),
                         fmt::join(one.train, " "));
@@ -54,8 +55,11 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_plan() {
   return {.id = "plan",
           .summary = "What run would do: cases, seeds, estimated time and disk; writes nothing",
-          .arguments = {{.name = "study", .meaning = "study file", .value = "STUDY.toml", .required = true},
-                        {.name = "--data-root", .meaning = "where relative data-set paths start; default: the study file's folder", .value = "DIR"}},
+          .arguments =
+              {{.name = "study", .meaning = "study file", .value = "STUDY.toml", .required = true},
+               {.name = "--data-root",
+                .meaning = "where relative data-set paths start; default: the study file's folder",
+                .value = "DIR"}},
           .example = "flexspline plan studies/paper.toml",
           .run = run};
 }

@@ -20,7 +20,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_report() {
   return {.id = "report",
           .summary = "Draws the report again from the artefacts alone",
-          .arguments = {{.name = "dir", .meaning = "folder of a run, fit or comparison", .value = "DIR", .required = true}},
+          .arguments = {{.name = "dir",
+                         .meaning = "folder of a run, fit or comparison",
+                         .value = "DIR",
+                         .required = true}},
           .example = "flexspline report out/paper",
           .run = run};
 }

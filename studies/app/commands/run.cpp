@@ -16,12 +16,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto summary = run_in_folder(*study, arguments.text("out"), *jobs, console, report);
   if (!summary) return tl::unexpected(summary.error());
   if (console.json) {
-    const nlohmann::ordered_json text = {{"report", report.string()},
-                                         {"cases", summary->cases},
-                                         {"computed", summary->computed},
-                                         {"reused", summary->reused},
-                                         {"failed", summary->failed},
-                                         {"seconds", summary->seconds}};
+    const nlohmann::ordered_json text = {
+        {"report", report.string()}, {"cases", summary->cases},   {"computed", summary->computed},
+        {"reused", summary->reused}, {"failed", summary->failed}, {"seconds", summary->seconds}};
     console.result(text.dump(2));
   } else {
     console.result(report.string());
@@ -32,14 +29,21 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow describe_run() {
-  return {.id = "run",
-          .summary = "Runs a study: plan, cases, comparison, report; goes on where it stopped",
-          .arguments = {{.name = "study", .meaning = "study file", .value = "STUDY.toml", .required = true},
-                        {.name = "--out", .meaning = "folder for artefacts and report", .value = "DIR", .required = true},
-                        {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
-                        {.name = "--data-root", .meaning = "where relative data-set paths start; default: the study file's folder", .value = "DIR"}},
-          .example = "flexspline run studies/paper.toml --out out/paper",
-          .run = run};
+  return {
+      .id = "run",
+      .summary = "Runs a study: plan, cases, comparison, report; goes on where it stopped",
+      .arguments =
+          {{.name = "study", .meaning = "study file", .value = "STUDY.toml", .required = true},
+           {.name = "--out",
+            .meaning = "folder for artefacts and report",
+            .value = "DIR",
+            .required = true},
+           {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
+           {.name = "--data-root",
+            .meaning = "where relative data-set paths start; default: the study file's folder",
+            .value = "DIR"}},
+      .example = "flexspline run studies/paper.toml --out out/paper",
+      .run = run};
 }
 
 }  // namespace flexspline::app

@@ -26,10 +26,12 @@ Result<std::vector<Excitation>> sine(const Arguments& arguments, Direction direc
                        : "nothing says what drives the simulation",
                    "give --excitation sine, or --like DATASET");
   }
-  const auto amplitude = parse_quantity("amplitude", arguments.text("amplitude"),
-                                        direction == Direction::torque ? Dimension::angle : Dimension::torque);
+  const auto amplitude =
+      parse_quantity("amplitude", arguments.text("amplitude"),
+                     direction == Direction::torque ? Dimension::angle : Dimension::torque);
   if (!amplitude) return tl::unexpected(amplitude.error());
-  const auto frequency = parse_quantity("frequency", arguments.text("frequency"), Dimension::frequency);
+  const auto frequency =
+      parse_quantity("frequency", arguments.text("frequency"), Dimension::frequency);
   if (!frequency) return tl::unexpected(frequency.error());
   if (!(*amplitude > 0.0) || !(*frequency > 0.0)) {
     return failure(ErrorCode::usage, "--amplitude and --frequency have to be positive");
@@ -74,16 +76,28 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_simulate() {
   return {.id = "simulate",
           .summary = "A trajectory of a model, as a data set",
-          .arguments = {{.name = "model", .meaning = "model file", .value = "MODEL.toml", .required = true},
-                        {.name = "--like", .meaning = "take the excitation of this data set", .value = "DATASET"},
-                        {.name = "--excitation", .meaning = "sine", .value = "KIND"},
-                        {.name = "--amplitude", .meaning = "e.g. 0.2deg; for --direction torsion e.g. 16Nm", .value = "VALUE"},
-                        {.name = "--frequency", .meaning = "e.g. 0.005Hz", .value = "VALUE"},
-                        {.name = "--cycles", .meaning = "default 3", .value = "N"},
-                        {.name = "--samples", .meaning = "a cycle; default 500", .value = "N"},
-                        {.name = "--direction", .meaning = "torque from motion (default), or torsion from torque", .value = "torque|torsion"},
-                        {.name = "--out", .meaning = "folder of the data set", .value = "DIR", .required = true}},
-          .example = "flexspline simulate model.toml --excitation sine --amplitude 0.2deg --frequency 0.005Hz --out out/sine",
+          .arguments =
+              {{.name = "model", .meaning = "model file", .value = "MODEL.toml", .required = true},
+               {.name = "--like",
+                .meaning = "take the excitation of this data set",
+                .value = "DATASET"},
+               {.name = "--excitation", .meaning = "sine", .value = "KIND"},
+               {.name = "--amplitude",
+                .meaning = "e.g. 0.2deg; for --direction torsion e.g. 16Nm",
+                .value = "VALUE"},
+               {.name = "--frequency", .meaning = "e.g. 0.005Hz", .value = "VALUE"},
+               {.name = "--cycles", .meaning = "default 3", .value = "N"},
+               {.name = "--samples", .meaning = "a cycle; default 500", .value = "N"},
+               {.name = "--direction",
+                .meaning = "torque from motion (default), or torsion from torque",
+                .value = "torque|torsion"},
+               {.name = "--out",
+                .meaning = "folder of the data set",
+                .value = "DIR",
+                .required = true}},
+          .example =
+              "flexspline simulate model.toml --excitation sine --amplitude 0.2deg --frequency "
+              "0.005Hz --out out/sine",
           .run = run};
 }
 

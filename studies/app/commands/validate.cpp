@@ -52,10 +52,12 @@ Result<Verdict> check(const std::filesystem::path& path, const std::string& data
   if (std::filesystem::is_directory(path, ignored)) return check_dataset(path);
   const auto content = read_file(path);
   if (!content) return tl::unexpected(content.error());
-  if (content->find("flexspline-dataset/") != std::string::npos) return check_dataset(path.parent_path());
+  if (content->find("flexspline-dataset/") != std::string::npos)
+    return check_dataset(path.parent_path());
   if (content->find("flexspline-model/") != std::string::npos) {
     const auto model = data::parse_model(*content, path.string());
-    return Verdict{"model", model ? std::vector<std::string>{} : std::vector{model.error().message()}, {}};
+    return Verdict{
+        "model", model ? std::vector<std::string>{} : std::vector{model.error().message()}, {}};
   }
   return check_study(path, data_root);
 }
@@ -75,7 +77,8 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   } else {
     for (const std::string& error : verdict->errors) console.result("error: " + error);
     for (const std::string& note : verdict->notes) console.result("note: " + note);
-    console.result(fmt::format("{}: {} {}", path, valid ? "a valid" : "not a valid", verdict->what));
+    console.result(
+        fmt::format("{}: {} {}", path, valid ? "a valid" : "not a valid", verdict->what));
   }
   return valid ? kDone : verdict->code;
 }
@@ -85,8 +88,13 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_validate() {
   return {.id = "validate",
           .summary = "Checks a study, model or data set and says everything that is wrong at once",
-          .arguments = {{.name = "path", .meaning = "study or model file, or folder of a data set", .value = "FILE|DATASET", .required = true},
-                        {.name = "--data-root", .meaning = "where a study's relative data-set paths start", .value = "DIR"}},
+          .arguments = {{.name = "path",
+                         .meaning = "study or model file, or folder of a data set",
+                         .value = "FILE|DATASET",
+                         .required = true},
+                        {.name = "--data-root",
+                         .meaning = "where a study's relative data-set paths start",
+                         .value = "DIR"}},
           .example = "flexspline validate studies/paper.toml",
           .run = run};
 }

@@ -14,9 +14,9 @@ struct ComparedSeries {
   std::vector<double> motion;
   std::vector<double> simulated;
   std::vector<double> measured;
-  std::vector<double> truth;      ///< the bench's own noise-free effort; empty for data sets
-  std::vector<bool> counts;       ///< samples that are compared
-  std::size_t cycle_first = 0;    ///< one steady cycle [first, last); empty where there is none
+  std::vector<double> truth;    ///< the bench's own noise-free effort; empty for data sets
+  std::vector<bool> counts;     ///< samples that are compared
+  std::size_t cycle_first = 0;  ///< one steady cycle [first, last); empty where there is none
   std::size_t cycle_last = 0;
 };
 

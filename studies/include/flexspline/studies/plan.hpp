@@ -31,7 +31,7 @@ struct InputPlan {
   const InputConfig* input = nullptr;
   int replicate = 0;
   std::uint64_t seed = 0;
-  std::vector<Loop> train_loops;    ///< of the bench: the union over its estimators
+  std::vector<Loop> train_loops;  ///< of the bench: the union over its estimators
   std::vector<Loop> holdout_loops;
   std::string depends_on;
 };

@@ -17,9 +17,10 @@ namespace flexspline::studies {
 /// Errors: cannot_write.
 Result<void> write_results(const StudyPlan& plan, const std::filesystem::path& folder);
 
-/// ro-crate-metadata.json: the folder as a process run crate (RO-Crate 1.1): program, inputs, results.
-/// Errors: cannot_write.
-Result<void> write_ro_crate(const StudyPlan& plan, const std::map<std::string, std::string>& versions,
+/// ro-crate-metadata.json: the folder as a process run crate (RO-Crate 1.1): program, inputs,
+/// results. Errors: cannot_write.
+Result<void> write_ro_crate(const StudyPlan& plan,
+                            const std::map<std::string, std::string>& versions,
                             const std::filesystem::path& folder);
 
 }  // namespace flexspline::studies

@@ -28,7 +28,7 @@ struct RunSettings {
   int jobs = 0;                                 ///< workers; 0: as many as the machine has
   std::string build_id;                         ///< of the program
   std::map<std::string, std::string> versions;  ///< of program and libraries, for the lock file
-  const std::atomic<bool>* stop = nullptr;      ///< becomes true: finish the cases at hand and return
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true: finish the cases at hand and return
   std::function<void(const Progress&)> progress;
   std::function<void(std::string_view)> log;
 };
@@ -36,8 +36,8 @@ struct RunSettings {
 /// What a run did.
 struct RunSummary {
   std::size_t cases = 0;
-  std::size_t computed = 0;  ///< cases
-  std::size_t reused = 0;    ///< valid artefacts of an earlier run
+  std::size_t computed = 0;         ///< cases
+  std::size_t reused = 0;           ///< valid artefacts of an earlier run
   std::vector<std::string> failed;  ///< "key: reason", also of reused ones
   bool interrupted = false;
   double seconds = 0.0;
