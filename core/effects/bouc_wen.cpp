@@ -6,8 +6,14 @@
 namespace flexspline {
 namespace {
 
-// Within one sample z follows its equation by steps of at most a twentieth of the slip length, so
-// that the result does not depend on the sampling.
+// dz/d(x/r) where the motion goes in this direction.
+double slope(double z, double direction, double exponent) {
+  const double along = z * direction;
+  return 1.0 - std::copysign(std::pow(std::min(std::abs(along), 1.0), exponent), along);
+}
+
+// Within one sample z follows its equation by Heun steps of at most a twentieth of the slip length,
+// so that the result does not depend on the sampling.
 void apply(const EffectSpec& spec, const Motion& motion, std::span<double> torque) {
   const double height = spec.parameters[0].second;
   const double slip = spec.parameters[1].second;
@@ -19,10 +25,11 @@ void apply(const EffectSpec& spec, const Motion& motion, std::span<double> torqu
     last = motion.position[i];
     const double direction = dx < 0.0 ? -1.0 : 1.0;
     const int steps = static_cast<int>(std::clamp(std::ceil(20.0 * std::abs(dx) / slip), 1.0, 1e4));
+    const double step = dx / (slip * steps);
     for (int k = 0; k < steps; ++k) {
-      const double along = z * direction;
-      const double rate = 1.0 - std::copysign(std::pow(std::min(std::abs(along), 1.0), exponent), along);
-      z = std::clamp(z + dx / (slip * steps) * rate, -1.0, 1.0);
+      const double first = slope(z, direction, exponent);
+      const double second = slope(z + step * first, direction, exponent);
+      z = std::clamp(z + 0.5 * step * (first + second), -1.0, 1.0);
     }
     torque[i] += height * z;
   }

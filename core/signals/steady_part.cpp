@@ -104,17 +104,12 @@ std::size_t index_at(std::span<const double> time, double t) {
   return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
 }
 
-}  // namespace
-
-std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
-  if (record.travels || record.time.size() < 16) return std::nullopt;
+// The steady part by cycles of this period, with the period that the motion has there.
+std::optional<SteadyPart> steady_by(const TorsionRecord& record, double period) {
   const double end = record.time.back();
   const double span = end - record.time.front();
-  const auto sine = fit_sine(record.time, record.motion, record.frequency_hz);
-  if (!(sine.frequency_hz > 0.0) || span * sine.frequency_hz < 1.999) return std::nullopt;
-
-  const double period = 1.0 / sine.frequency_hz;
   const int available = static_cast<int>(span / period + 1e-3);
+  if (available < 2) return std::nullopt;
   const Cycles motion(Spline(record.time, record.motion), end, period, available);
   const Cycles effort(Spline(record.time, record.effort), end, period, available);
   const auto run = longest_run(motion, effort);
@@ -123,17 +118,31 @@ std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
   const double to = end - 0.5 * run->steps * period;
   const double from = to - run->cycles * period;
   SteadyPart steady{.period = period,
-                    .first = index_at(record.time, from + 1e-9 * period),
+                    .first = index_at(record.time, from - 1e-6 * period),
                     .last = index_at(record.time, to + 1e-9 * period),
                     .cycles = run->cycles};
-  // The run-up has biased the frequency: fit it again without.
   const std::size_t length = steady.last - steady.first;
   const double again = fit_sine(std::span(record.time).subspan(steady.first, length),
                                 std::span(record.motion).subspan(steady.first, length),
-                                sine.frequency_hz)
+                                1.0 / period)
                            .frequency_hz;
   if (std::abs(again * period - 1.0) < 0.1) steady.period = 1.0 / again;
   return steady;
+}
+
+}  // namespace
+
+std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
+  if (record.travels || record.time.size() < 16) return std::nullopt;
+  const double span = record.time.back() - record.time.front();
+  const auto sine = fit_sine(record.time, record.motion, record.frequency_hz);
+  if (!(sine.frequency_hz > 0.0) || span * sine.frequency_hz < 1.999) return std::nullopt;
+
+  const auto steady = steady_by(record, 1.0 / sine.frequency_hz);
+  if (!steady) return std::nullopt;
+  // A run-up biases the frequency of the whole, so that cycles seem to drift: again without it.
+  const auto again = steady_by(record, steady->period);
+  return again && again->cycles >= steady->cycles ? again : steady;
 }
 
 std::optional<LoopFigures> loop_figures(const TorsionRecord& record) {
