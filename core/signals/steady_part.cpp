@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kPhases = 200;
 constexpr double kRepeats = 0.15;     // cycles that differ by more of their rms do not repeat
 constexpr double kAsTheBest = 0.02;   // differences below this share of the rms are steady
+constexpr double kSliver = 0.02;      // of a period before the first cycle that still belongs to it
 constexpr double kAtRest = 0.5;       // of the largest cycle's rms: smaller ones are no loop
 
 std::vector<double> cycle_ending(const Spline& signal, double end, double period) {
@@ -118,9 +119,10 @@ std::optional<SteadyPart> steady_by(const TorsionRecord& record, double period) 
   const double to = end - 0.5 * run->steps * period;
   const double from = to - run->cycles * period;
   SteadyPart steady{.period = period,
-                    .first = index_at(record.time, from - 1e-6 * period),
+                    .first = index_at(record.time, from),
                     .last = index_at(record.time, to + 1e-9 * period),
                     .cycles = run->cycles};
+  if (from - record.time.front() < kSliver * period) steady.first = 0;
   const std::size_t length = steady.last - steady.first;
   const double again = fit_sine(std::span(record.time).subspan(steady.first, length),
                                 std::span(record.motion).subspan(steady.first, length),
