@@ -49,7 +49,7 @@ Eigen::Index best_order(const Eigen::VectorXd& rotated, double total, Eigen::Ind
 }  // namespace
 
 SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const double> samples,
-                                 double period) {
+                                 double period, Harmonics kept) {
   const auto n = static_cast<Eigen::Index>(time.size());
   const double per_cycle = static_cast<double>(n) * period / (time.back() - time.front());
   const Eigen::Index most = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(per_cycle / 6.0), 1,
@@ -58,7 +58,8 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
   const Eigen::Map<const Eigen::VectorXd> y(samples.data(), n);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
   const Eigen::VectorXd rotated = qr.householderQ().transpose() * y;
-  const Eigen::Index order = best_order(rotated, y.squaredNorm(), n, most);
+  const bool choose = kept == Harmonics::significant;
+  const Eigen::Index order = choose ? best_order(rotated, y.squaredNorm(), n, most) : most;
 
   const Eigen::Index used = 2 * order + 1;
   Eigen::VectorXd c = qr.matrixQR()
@@ -68,7 +69,7 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
   const double noise = (y - columns.leftCols(used) * c).norm() / std::sqrt(static_cast<double>(n));
   const double error = noise * std::sqrt(2.0 / static_cast<double>(n));
   Eigen::Index freedom = used;
-  for (Eigen::Index k = 2; k <= order; ++k) {
+  for (Eigen::Index k = 2; choose && k <= order; ++k) {
     if (std::hypot(c[2 * k - 1], c[2 * k]) >= kSignificance * error) continue;
     c.segment(2 * k - 1, 2).setZero();
     freedom -= 2;

@@ -19,9 +19,14 @@ struct SmoothSignal {
 /// cross-validation with a stochastic trace. 16 samples or more.
 SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples);
 
-/// Fourier series of the period given; order by the Bayesian information criterion, harmonics below
-/// four standard errors left out.
+/// Which harmonics a smooth signal keeps.
+enum class Harmonics {
+  significant,  ///< order by the Bayesian information criterion, those below four standard errors out
+  all,          ///< up to the 40th or a sixth of the samples of a cycle: noisier, not biased
+};
+
+/// Fourier series of the period given.
 SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const double> samples,
-                                 double period);
+                                 double period, Harmonics kept);
 
 }  // namespace flexspline

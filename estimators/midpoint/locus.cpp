@@ -36,6 +36,7 @@ Result<MidpointLocus> midpoint_locus(const TorsionRecord& record) {
   }
   MidpointLocus locus{.amplitude = sine.amplitude,
                       .angular_frequency = 2.0 * std::numbers::pi * sine.frequency_hz,
+                      .phase = sine.phase,
                       .centre = sine.mean,
                       .purity = sine.explained,
                       .cycles = steady->cycles};

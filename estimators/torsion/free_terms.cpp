@@ -50,19 +50,6 @@ double log_h_std(const Eigen::MatrixXd& covariance) {
   return worst;
 }
 
-// A run-up from rest passes through every smaller amplitude, and h read from those few samples alone
-// would rest on how the motion was started; so where a record has a steady part, only that counts.
-void leave_out_transients(const std::vector<PreparedRecord>& records, Eigen::MatrixXd& jacobian) {
-  Eigen::Index row = 0;
-  for (const auto& one : records) {
-    for (std::size_t sample : one.rows) {
-      const auto& steady = one.smooth.steady;
-      if (steady && (sample < steady->first || sample >= steady->last)) jacobian.row(row).setZero();
-      ++row;
-    }
-  }
-}
-
 struct Candidate {
   std::string name;
   Group group;
@@ -102,9 +89,8 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   all.initial = false;
   const LinearStart probe = with_terms(start, all);
   const TorsionLayout& layout = probe.layout;
-  auto at = linearise(TorqueResiduals(layout, records), probe.p);
+  const auto at = linearise(TorqueResiduals(layout, records), probe.p);
   if (!at) return tl::unexpected(at.error());
-  leave_out_transients(records, at->jacobian);
   const Eigen::MatrixXd& j = at->jacobian;
   auto rest = joined(columns_of(layout.f_group), columns_of(layout.g_group));
   rest = joined(rest, columns_of(layout.offset_group));

@@ -22,10 +22,16 @@ double encoder_step(const std::vector<double>& motion) {
   return repeats * 100 > motion.size() ? step : 0.0;
 }
 
-std::vector<std::size_t> rows_of(const TorsionRecord& record, std::size_t most) {
-  const std::size_t stride = (record.time.size() + most - 1) / most;
+// Where a record has a steady part only that has residuals: in a run-up the derivatives of the motion
+// are known from a smoothing spline alone, and its errors are not those of the bench. The run-up is
+// simulated and carries the state along.
+std::vector<std::size_t> rows_of(const TorsionRecord& record,
+                                 const std::optional<SteadyPart>& steady, std::size_t most) {
+  const std::size_t first = steady ? steady->first : 0;
+  const std::size_t last = steady ? steady->last : record.time.size();
+  const std::size_t stride = (last - first + most - 1) / most;
   std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < record.time.size(); i += stride) {
+  for (std::size_t i = first; i < last; i += stride) {
     if (record.valid.empty() || record.valid[i]) rows.push_back(i);
   }
   return rows;
@@ -47,7 +53,7 @@ Result<std::vector<PreparedRecord>> prepare(const std::vector<TorsionRecord>& re
                        .velocity = Spline(t, m.velocity),
                        .acceleration = Spline(t, m.acceleration),
                        .effort = Spline(t, smooth->effort),
-                       .rows = rows_of(record, most_rows)};
+                       .rows = rows_of(record, smooth->steady, most_rows)};
     const double quantisation = encoder_step(record.motion) / std::sqrt(12.0);
     const double range = *std::ranges::max_element(m.position) - *std::ranges::min_element(m.position);
     one.motion_sigma = std::max({smooth->motion_noise, quantisation, 1e-6 * range});

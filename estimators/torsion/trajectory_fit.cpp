@@ -100,9 +100,10 @@ Result<TrajectoryFit> fit_torque(const LinearStart& start, const std::vector<Pre
 Result<TrajectoryFit> fit_torsion(const TrajectoryFit& from, const std::vector<PreparedRecord>& records,
                         const SolverSettings& settings, const IntegratorSettings& integrator) {
   FreeTerms free = from.at.layout.free_terms();
-  free.initial = true;
+  free.initial =
+      std::ranges::any_of(records, [](const auto& one) { return !one.smooth.steady.has_value(); });
   LinearStart start = with_terms(from.at, free);
-  for (std::size_t k = 0; k < records.size(); ++k) {
+  for (std::size_t k = 0; k < start.layout.initial_group.count; ++k) {
     start.p[start.layout.initial_group.first + k] = records[k].smooth.motion.position.front();
   }
   TorsionResiduals problem(start.layout, records, integrator);

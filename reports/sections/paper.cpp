@@ -8,7 +8,7 @@
 namespace flexspline::reports {
 namespace {
 
-/// Leading significant digits, up to those published, to which ours rounds to the published value.
+/// Leading significant digits, up to those known, to which ours rounds to the known value.
 int agreeing_digits(const Fact& fact) {
   char* end = nullptr;
   const double published = std::strtod(fact.published.c_str(), &end);
@@ -22,12 +22,12 @@ int agreeing_digits(const Fact& fact) {
 
 Table facts_table(const Paper& paper) {
   Table table{"paper-facts",
-              "What can be computed from the paper's own numbers, beside what was published.",
+              "What can be computed from the paper's own numbers, beside the values known before.",
               {{"fact", "", 3},
                {"ours", "", 5},
-               {"published", "", 3},
+               {"known", "", 3},
                {"unit", "", 3},
-               {"digits published", "", 0},
+               {"digits known", "", 0},
                {"digits that agree", "", 0}},
               {}};
   for (const Fact& fact : paper.facts) {

@@ -37,7 +37,7 @@ ordered_json figure(const char* id, const char* title, const char* x, const char
 /// What the figures are drawn from, in degrees and newton metres.
 struct Drawn {
   Series time, motor_angle, torsion, torque, differentiated, pure_sine;
-  MidpointLocus locus;
+  Series locus_torsion, locus_mean, locus_speed, locus_half_difference;
   Series f, f_table, g, g_table, torque_fitted;
   std::size_t cycle = 0;  ///< first sample of the last cycle
 };
@@ -61,23 +61,28 @@ Drawn prepare(const PaperExperiment& experiment, const Law& f, const Law& g) {
   drawn.torsion = in_degrees(experiment.record.motion);
   drawn.torque = experiment.record.effort;
   drawn.differentiated = differentiated(drawn.time, drawn.torsion);
-  const double omega = 2.0 * std::numbers::pi * experiment.sine.frequency_hz;
+  const estimators::MidpointLocus& locus = experiment.locus;
+  const double omega = locus.angular_frequency;
   for (std::size_t i = 0; i < drawn.time.size(); ++i) {
-    const double phase = omega * drawn.time[i] + experiment.sine.phase;
-    const double speed = -experiment.sine.amplitude * omega * std::sin(phase);
+    const double speed = -locus.amplitude * omega * std::sin(omega * drawn.time[i] + locus.phase);
     drawn.pure_sine.push_back(speed * kDegreesPerRad);
     drawn.torque_fitted.push_back(f.value(experiment.record.motion[i]) + g.value(speed));
   }
-  drawn.locus = midpoint_locus(experiment);
-  for (const double x : drawn.locus.torsion) {
-    drawn.f.push_back(f.value(x / kDegreesPerRad));
-    drawn.f_table.push_back(kStiffness.value(x));
+  drawn.locus_torsion = in_degrees(locus.motion);
+  drawn.locus_mean = locus.midpoint;
+  drawn.locus_speed = in_degrees(locus.rate);
+  drawn.locus_half_difference = locus.distance;
+  for (const double x : locus.motion) {
+    drawn.f.push_back(f.value(x));
+    drawn.f_table.push_back(kStiffness.value(x * kDegreesPerRad));
   }
-  for (const double v : drawn.locus.speed) {
-    drawn.g.push_back(g.value(v / kDegreesPerRad));
-    drawn.g_table.push_back(kDamping.value(v));
+  for (const double v : locus.rate) {
+    drawn.g.push_back(g.value(v));
+    drawn.g_table.push_back(kDamping.value(v * kDegreesPerRad));
   }
-  const double start = drawn.time.back() - 1.0 / experiment.sine.frequency_hz;
+  // One sample more than a period, so that the loop closes.
+  const double step = drawn.time[1] - drawn.time[0];
+  const double start = drawn.time.back() - 2.0 * std::numbers::pi / omega - 0.5 * step;
   drawn.cycle =
       static_cast<std::size_t>(std::ranges::lower_bound(drawn.time, start) - drawn.time.begin());
   return drawn;
@@ -109,9 +114,8 @@ ordered_json time_figures(const Drawn& d) {
 }
 
 void add_function_figures(const Drawn& d, ordered_json& figures) {
-  const MidpointLocus& locus = d.locus;
-  const auto f_points = series("midpoint locus", locus.torsion, locus.mean, "points");
-  const auto g_points = series("midpoint locus", locus.speed, locus.half_difference, "points");
+  const auto f_points = series("midpoint locus", d.locus_torsion, d.locus_mean, "points");
+  const auto g_points = series("midpoint locus", d.locus_speed, d.locus_half_difference, "points");
   figures.push_back(figure("figure_8", "Measured stiffness function", "phi / deg", "f / Nm",
                            "Mean of the two torques at each torsion, eq. (18).", {f_points}));
   figures.push_back(figure("figure_9", "Measured viscous damping function", "phi' / (deg/s)",
@@ -120,13 +124,13 @@ void add_function_figures(const Drawn& d, ordered_json& figures) {
   figures.push_back(figure("figure_10", "Measured and estimated stiffness function", "phi / deg",
                            "f / Nm",
                            "The fit to the virtual recording beside Table I as published.",
-                           {f_points, series("estimated", locus.torsion, d.f, "line"),
-                            series("Table I", locus.torsion, d.f_table, "line")}));
+                           {f_points, series("estimated", d.locus_torsion, d.f, "line"),
+                            series("Table I", d.locus_torsion, d.f_table, "line")}));
   figures.push_back(figure("figure_11", "Measured and estimated viscous damping function",
                            "phi' / (deg/s)", "g^-1 / Nm",
                            "The fit to the virtual recording beside Table I as published.",
-                           {g_points, series("estimated", locus.speed, d.g, "line"),
-                            series("Table I", locus.speed, d.g_table, "line")}));
+                           {g_points, series("estimated", d.locus_speed, d.g, "line"),
+                            series("Table I", d.locus_speed, d.g_table, "line")}));
   const auto cycle = kept_indices(d.cycle, d.time.size());
   const Series torsion = at_indices(d.torsion, cycle);
   figures.push_back(figure(

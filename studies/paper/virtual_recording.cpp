@@ -1,7 +1,6 @@
 #include "paper/virtual_recording.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "flexspline/core/torsion_record.hpp"
@@ -26,28 +25,6 @@ Result<Recording> record_table_one(const StudyConfig& study) {
   return std::move(made->measured);
 }
 
-double effort_at(const TorsionRecord& record, double instant) {
-  const auto above = std::ranges::lower_bound(record.time, instant) - record.time.begin();
-  const auto last = static_cast<std::ptrdiff_t>(record.time.size()) - 1;
-  const auto right = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, last));
-  const double share =
-      (instant - record.time[right - 1]) / (record.time[right] - record.time[right - 1]);
-  return record.effort[right - 1] + share * (record.effort[right] - record.effort[right - 1]);
-}
-
-/// Torque at a phase of the fitted cosine, averaged over the cycles after the run-up.
-double steady_effort(const PaperExperiment& experiment, double phase) {
-  const double period = 1.0 / experiment.sine.frequency_hz;
-  const double begin = experiment.record.time.front() + period;
-  const double end = experiment.record.time.back();
-  double instant = period * (phase - experiment.sine.phase) / (2.0 * std::numbers::pi);
-  instant += period * std::ceil((begin - instant) / period);
-  double sum = 0.0;
-  int count = 0;
-  for (; instant <= end; instant += period, ++count) sum += effort_at(experiment.record, instant);
-  return count > 0 ? sum / count : kNotComputed;
-}
-
 }  // namespace
 
 Result<PaperExperiment> repeat_experiment(const StudyConfig& study) {
@@ -60,29 +37,14 @@ Result<PaperExperiment> repeat_experiment(const StudyConfig& study) {
   if (!method) return tl::unexpected(method.error());
   Result<Estimate> estimate = (*method)->fit({{*record}, {}});
   if (!estimate) return tl::unexpected(estimate.error());
+  auto locus = estimators::midpoint_locus(*record);
+  if (!locus) return tl::unexpected(locus.error());
   PaperExperiment experiment;
   experiment.recording = std::move(*recording);
-  experiment.sine = fit_sine(record->time, record->motion, kFrequencyHz);
+  experiment.locus = std::move(*locus);
   experiment.record = std::move(*record);
   experiment.estimate = std::move(*estimate);
   return experiment;
-}
-
-MidpointLocus midpoint_locus(const PaperExperiment& experiment) {
-  constexpr int kPoints = 160;
-  const double amplitude = experiment.sine.amplitude * kDegreesPerRad;
-  const double omega = 2.0 * std::numbers::pi * experiment.sine.frequency_hz;
-  MidpointLocus locus;
-  for (int i = 1; i < kPoints; ++i) {
-    const double phase = std::numbers::pi * i / kPoints;
-    const double down = steady_effort(experiment, phase);
-    const double up = steady_effort(experiment, 2.0 * std::numbers::pi - phase);
-    locus.torsion.push_back(amplitude * std::cos(phase));
-    locus.mean.push_back(0.5 * (up + down));
-    locus.speed.push_back(amplitude * omega * std::sin(phase));
-    locus.half_difference.push_back(0.5 * (up - down));
-  }
-  return locus;
 }
 
 std::array<Recovered, 5> recovered_coefficients(const Estimate& estimate, char letter) {

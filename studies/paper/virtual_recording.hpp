@@ -6,7 +6,7 @@
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/estimate.hpp"
 #include "flexspline/core/recording.hpp"
-#include "flexspline/core/signals.hpp"
+#include "flexspline/estimators/midpoint_locus.hpp"
 #include "flexspline/studies/study_config.hpp"
 
 namespace flexspline::studies {
@@ -16,22 +16,12 @@ namespace flexspline::studies {
 struct PaperExperiment {
   Recording recording;   ///< motor angle and torque as the sensors show them, SI
   TorsionRecord record;  ///< the same as torque over torsion
-  SineFit sine;          ///< of the torsion
+  estimators::MidpointLocus locus;
   Estimate estimate;     ///< by the paper's own method
 };
 
 /// Errors: the truth table_i, the bench or the method midpoint_polynomial fail.
 Result<PaperExperiment> repeat_experiment(const StudyConfig& study);
-
-/// Eqs. (15)-(19) on all steady cycles: at every torsion the mean and half the difference of the
-/// two torques. deg, deg/s, Nm.
-struct MidpointLocus {
-  std::vector<double> torsion;
-  std::vector<double> mean;
-  std::vector<double> speed;
-  std::vector<double> half_difference;
-};
-MidpointLocus midpoint_locus(const PaperExperiment& experiment);
 
 /// A coefficient in Table I's units with its standard deviation, as the method names and gives it;
 /// NaN where it does not.

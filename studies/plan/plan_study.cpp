@@ -11,7 +11,7 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr double kSecondsPerSample = 5e-5;  // measured on studies/paper.toml, mean over its methods
+constexpr double kSecondsPerSample = 5e-5;  // order of magnitude, for plan's estimate only
 constexpr double kBytesPerRecording = 15e3;
 
 bool uses(const EstimatorConfig& estimator, const InputConfig& input) {

@@ -17,7 +17,9 @@ using nlohmann::ordered_json;
 std::vector<std::size_t> shown_samples(const TorsionRecord& record) {
   const std::optional<SteadyPart> steady = find_steady_part(record);
   if (!steady) return kept_indices(0, record.time.size());
-  const double start = record.time[steady->last - 1] - steady->period;
+  // One sample more than a period, so that the loop closes.
+  const double step = record.time[steady->last - 1] - record.time[steady->last - 2];
+  const double start = record.time[steady->last - 1] - steady->period - 0.5 * step;
   const auto first = std::ranges::lower_bound(record.time, start) - record.time.begin();
   return kept_indices(std::max(steady->first, static_cast<std::size_t>(first)), steady->last);
 }
