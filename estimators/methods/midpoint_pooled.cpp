@@ -8,6 +8,10 @@ namespace {
 
 Result<Estimate> fit(const FitProblem& problem) {
   const auto started = std::chrono::steady_clock::now();
+  if (problem.records.empty()) {
+    return failure(ErrorCode::bad_data, "there is no recording to train on",
+                   "mark one with split = \"train\"");
+  }
   std::vector<MidpointLocus> loci;
   std::vector<TorsionRecord> used;
   std::string left_out;

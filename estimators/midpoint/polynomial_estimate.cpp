@@ -2,12 +2,13 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "flexspline/core/law.hpp"
 #include "midpoint/locus.hpp"
 #include "uncertainty/bands.hpp"
+#include "uncertainty/covariance.hpp"
 #include "uncertainty/identifiability.hpp"
 
 namespace flexspline::estimators {
@@ -31,7 +32,8 @@ Polynomial fit_polynomial(const std::vector<double>& x, const std::vector<double
   Eigen::MatrixXd powers(n, kTerms);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double u = x[static_cast<std::size_t>(i)] / scale;
-    for (Eigen::Index k = 0; k < kTerms; ++k) powers(i, k) = std::pow(u, 2.0 * static_cast<double>(k) + 1.0);
+    for (Eigen::Index k = 0; k < kTerms; ++k)
+      powers(i, k) = std::pow(u, 2.0 * static_cast<double>(k) + 1.0);
   }
   const Eigen::Map<const Eigen::VectorXd> target(y.data(), n);
   const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(target);
@@ -41,8 +43,12 @@ Polynomial fit_polynomial(const std::vector<double>& x, const std::vector<double
                 .knots = {},
                 .coefficients = std::vector<double>(c.data(), c.data() + kTerms),
                 .valid_to = scale};
-  result.residual_squares = (target - powers * c).squaredNorm();
-  const double variance = result.residual_squares / static_cast<double>(n - kTerms);
+  const Eigen::VectorXd residual = target - powers * c;
+  result.residual_squares = residual.squaredNorm();
+  // Neighbours on the locus share samples and coloured noise.
+  const double colour = long_run_ratio({residual.data(), static_cast<std::size_t>(n)});
+  const double variance =
+      std::max(1.0, colour) * result.residual_squares / static_cast<double>(n - kTerms);
   result.covariance = variance * (powers.transpose() * powers).inverse();
   result.condition = scaled_condition(powers);
   return result;
@@ -79,9 +85,10 @@ double monotone_share(const Law& law) {
 std::string monotone_note(std::string_view name, const Law& law) {
   const double share = monotone_share(law);
   if (share >= 2.0) return fmt::format("{} increases beyond twice its fitted range", name);
-  return fmt::format("{} increases up to {:.1f} % of its fitted range and falls beyond: outside it "
-                     "the model can make energy",
-                     name, 100.0 * share);
+  return fmt::format(
+      "{} increases up to {:.1f} % of its fitted range and falls beyond: outside it "
+      "the model can make energy",
+      name, 100.0 * share);
 }
 
 }  // namespace
@@ -103,11 +110,11 @@ Estimate polynomial_estimate(std::string estimator, const std::vector<MidpointLo
 
   Estimate estimate;
   estimate.estimator = std::move(estimator);
-  estimate.model = {.f = f.law,
-                    .g_inverse = g.law,
-                    .h = {.law = "bounded_modulation", .scale = f.law.scale, .knots = {},
-                          .coefficients = {}},
-                    .effects = {}};
+  estimate.model = {
+      .f = f.law,
+      .g_inverse = g.law,
+      .h = {.law = "bounded_modulation", .scale = f.law.scale, .knots = {}, .coefficients = {}},
+      .effects = {}};
   add_parameters(f, 'a', false, linear, estimate.parameters);
   add_parameters(g, 'b', true, linear, estimate.parameters);
   for (std::size_t k = 0; k < loci.size(); ++k) {
@@ -123,8 +130,8 @@ Estimate polynomial_estimate(std::string estimator, const std::vector<MidpointLo
   estimate.residual = "Xm - f and Xd - g^-1 on the midpoint locus, eqs. (22), (23), in Nm (N)";
   const double points = static_cast<double>(midpoint.size());
   for (const auto& record : records) {
-    estimate.fits.push_back({record.id, Split::train,
-                             std::sqrt((f.residual_squares + g.residual_squares) / points)});
+    estimate.fits.push_back(
+        {record.id, Split::train, std::sqrt((f.residual_squares + g.residual_squares) / points)});
   }
   estimate.identifiability = {
       .condition = std::max(f.condition, g.condition),

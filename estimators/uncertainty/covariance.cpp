@@ -77,6 +77,8 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd&
     const auto column = static_cast<Eigen::Index>(k);
     if (!bound_active[k] && jacobian.col(column).norm() > 0.0) free.push_back(column);
   }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+  if (free.empty()) return covariance;
   const Eigen::MatrixXd j = jacobian(Eigen::all, free);
   const Eigen::VectorXd scale = j.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = j * scale.asDiagonal();
@@ -86,8 +88,12 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd&
   const Eigen::MatrixXd bread = scale.asDiagonal() * eigen.eigenvectors() *
                                 inverse.asDiagonal() * eigen.eigenvectors().transpose() *
                                 scale.asDiagonal();
-  const Eigen::MatrixXd part = bread * middle(free, free) * bread;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+  // Along a flat direction the middle vanishes too: rounding must not pass for information.
+  const Eigen::VectorXd flat =
+      (eigen.eigenvalues().array() < floor).select(inverse, Eigen::VectorXd::Zero(inverse.size()));
+  const Eigen::MatrixXd unknown = scale.asDiagonal() * eigen.eigenvectors() * flat.asDiagonal() *
+                                  eigen.eigenvectors().transpose() * scale.asDiagonal();
+  const Eigen::MatrixXd part = bread * middle(free, free) * bread + unknown;
   covariance(free, free) = part;
   return covariance;
 }

@@ -21,6 +21,7 @@ Eigen::MatrixXd scaled_columns(const Eigen::MatrixXd& matrix) {
 // Orthonormal basis of the column space.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd scaled = scaled_columns(matrix);
+  if (scaled.cols() == 0) return scaled;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   qr.setThreshold(1e-9);
   return qr.householderQ() * Eigen::MatrixXd::Identity(scaled.rows(), qr.rank());
@@ -36,6 +37,7 @@ double largest_cosine(const Eigen::MatrixXd& of, const Eigen::MatrixXd& rest) {
 
 double scaled_condition(const Eigen::MatrixXd& jacobian) {
   const Eigen::MatrixXd scaled = scaled_columns(jacobian);
+  if (scaled.cols() == 0) return std::numeric_limits<double>::infinity();
   // The triangular factor has the singular values of the whole.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
   const Eigen::MatrixXd r = qr.matrixQR().topRows(scaled.cols()).triangularView<Eigen::Upper>();
