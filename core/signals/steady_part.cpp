@@ -136,6 +136,8 @@ std::optional<SteadyPart> steady_by(const TorsionRecord& record, double period) 
 
 std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
   if (record.travels || record.time.size() < 16) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(record.motion);
+  if (!(high > low)) return std::nullopt;
   const double span = record.time.back() - record.time.front();
   const auto sine = fit_sine(record.time, record.motion, record.frequency_hz);
   if (!(sine.frequency_hz > 0.0) || span * sine.frequency_hz < 1.999) return std::nullopt;

@@ -39,6 +39,9 @@ TEST(SteadyPart, IsAbsentWithoutTwoCyclesOrRepetition) {
   auto growing = sine_record(4, 200, ellipse);
   for (std::size_t i = 0; i < growing.time.size(); ++i) growing.motion[i] *= std::exp(growing.time[i]);
   EXPECT_FALSE(find_steady_part(growing));
+  auto stuck = sine_record(4, 200, ellipse);
+  for (double& x : stuck.motion) x = 0.001;
+  EXPECT_FALSE(find_steady_part(stuck));
   auto travelling = sine_record(4, 200, ellipse);
   travelling.travels = true;
   EXPECT_FALSE(find_steady_part(travelling));

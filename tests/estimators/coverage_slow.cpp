@@ -1,0 +1,61 @@
+// How often 95 % intervals of f and g^-1 hold the truth, over seeded replicates of one experiment.
+#include <gtest/gtest.h>
+
+#include "gears.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr unsigned kReplicates = 60;
+
+struct Tally {
+  int held = 0;
+  int asked = 0;
+};
+
+// Counts at five points of one side of a band, inside the range of the recordings.
+void count(const FunctionBand& band, const std::function<double(double)>& truth, double range,
+           Tally& tally) {
+  for (double u : {0.15, 0.35, 0.55, 0.75, 0.95}) {
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < band.argument.size(); ++k) {
+      if (std::abs(band.argument[k] - u * range) <
+          std::abs(band.argument[nearest] - u * range)) {
+        nearest = k;
+      }
+    }
+    const double y = truth(band.argument[nearest]);
+    tally.held += band.lower[nearest] <= y && y <= band.upper[nearest] ? 1 : 0;
+    ++tally.asked;
+  }
+}
+
+// Of 60 independent intervals at 95 %, 53 to 60 hold in 99 of 100 studies (binomial), that is 88 %
+// or more; the five points of a replicate are not independent, and the splines add their own bias.
+TEST(Coverage, OfTheBandsOfFAndG) {
+  const auto gear = smooth_gear();
+  for (std::string simulate : {"torsion", "torque"}) {
+    Tally f;
+    Tally g;
+    for (unsigned replicate = 1; replicate <= kReplicates; ++replicate) {
+      const auto estimate =
+          fitted("trajectory_ceres",
+                 four_loops(gear, {.per_cycle = 150, .noise = 0.005, .seed = 1000 + replicate}),
+                 {.numbers = {}, .words = {{"simulate", simulate}}});
+      ASSERT_TRUE(estimate) << estimate.error().message();
+      for (const auto& band : estimate->bands) {
+        if (band.function == "f") count(band, gear.f, kAmplitude, f);
+        if (band.function == "g_inverse") count(band, gear.g_inverse, kSpeed, g);
+      }
+    }
+    const double f_share = static_cast<double>(f.held) / f.asked;
+    const double g_share = static_cast<double>(g.held) / g.asked;
+    RecordProperty("f_" + simulate, std::to_string(f_share));
+    RecordProperty("g_inverse_" + simulate, std::to_string(g_share));
+    EXPECT_GE(f_share, 0.85) << simulate;
+    EXPECT_GE(g_share, 0.85) << simulate;
+  }
+}
+
+}  // namespace
+}  // namespace flexspline::estimators
