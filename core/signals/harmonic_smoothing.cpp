@@ -66,7 +66,8 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
                           .topLeftCorner(used, used)
                           .triangularView<Eigen::Upper>()
                           .solve(rotated.head(used));
-  const double noise = (y - columns.leftCols(used) * c).norm() / std::sqrt(static_cast<double>(n));
+  const double noise =
+      (y - columns.leftCols(used) * c).norm() / std::sqrt(static_cast<double>(n - used));
   const double error = noise * std::sqrt(2.0 / static_cast<double>(n));
   Eigen::Index freedom = used;
   for (Eigen::Index k = 2; choose && k <= order; ++k) {

@@ -11,7 +11,7 @@ struct SmoothSignal {
   std::vector<double> value;
   std::vector<double> rate;
   std::vector<double> second;
-  double noise = 0.0;  ///< standard deviation of sample minus value
+  double noise = 0.0;  ///< standard deviation of the samples, by what smoothing left of it
   std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
 };
 

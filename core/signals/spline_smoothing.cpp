@@ -103,7 +103,8 @@ SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const doub
     }
     sum += (samples[i] - signal.value[i]) * (samples[i] - signal.value[i]);
   }
-  signal.noise = std::sqrt(sum / static_cast<double>(n));
+  const double left = std::max(static_cast<double>(n) - best.freedom, 1.0);
+  signal.noise = std::sqrt(sum / left);
   signal.error.assign(n, signal.noise * std::sqrt(best.freedom / static_cast<double>(n)));
   return signal;
 }

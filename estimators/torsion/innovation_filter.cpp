@@ -10,13 +10,14 @@ namespace {
 
 constexpr double kLeastError = 0.01;  // of a sample's noise, however many went into the mean
 
-// Noise of the torque counts at the low frequencies that the gear follows.
+// Noise of the torque counts at the low frequencies that the gear follows. Smoothing has taken its
+// own share of them out of the residual, so a ratio below one says nothing.
 double colour(const PreparedRecord& record) {
   std::vector<double> residual(record.record.effort.size());
   for (std::size_t i = 0; i < residual.size(); ++i) {
     residual[i] = record.record.effort[i] - record.smooth.effort[i];
   }
-  return long_run_ratio(residual);
+  return std::max(1.0, long_run_ratio(residual));
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ TEST(Coverage, OfTheBandsOfFAndG) {
     const double g_share = static_cast<double>(g.held) / g.asked;
     RecordProperty("f_" + simulate, std::to_string(f_share));
     RecordProperty("g_inverse_" + simulate, std::to_string(g_share));
-    EXPECT_GE(f_share, 0.85) << simulate;
-    EXPECT_GE(g_share, 0.85) << simulate;
+    EXPECT_GE(f_share, 0.88) << simulate;
+    EXPECT_GE(g_share, 0.88) << simulate;
   }
 }
 

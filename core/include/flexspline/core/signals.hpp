@@ -43,7 +43,7 @@ struct Reconstruction {
   Motion motion;                ///< position, velocity, acceleration at the record's instants
   std::vector<double> effort;
   std::optional<SteadyPart> steady;
-  double motion_noise = 0.0;    ///< standard deviation of measured minus reconstructed
+  double motion_noise = 0.0;    ///< standard deviation, degrees of freedom of the smoothing counted
   double effort_noise = 0.0;
   std::vector<double> motion_error;  ///< standard error of the reconstructed position
 };
