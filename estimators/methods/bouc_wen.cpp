@@ -6,12 +6,12 @@
 #include "solvers/least_squares.hpp"
 #include "torsion/prepared_record.hpp"
 #include "uncertainty/covariance.hpp"
+#include "uncertainty/estimate_parts.hpp"
 #include "uncertainty/identifiability.hpp"
 
 namespace flexspline::estimators {
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
 constexpr double kDifference = 1e-5;  // of ln r and ln n, for central differences
 
 // Parameters: three odd terms of f and the height H in Nm, ln(r / range), ln n.
@@ -92,30 +92,17 @@ Estimate estimate_of(const LeastSquaresSolution& solution, const Linearisation& 
   Estimate estimate;
   estimate.estimator = "bouc_wen";
   estimate.model = model_at(solution.p, ranges);
+  const std::string effort = records.front().record.linear ? "N" : "Nm";
   for (std::size_t k = 0; k < kCount; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    ParameterEstimate one;
-    one.name = kNames[k];
-    one.value = solution.p[k];
-    one.unit = k >= kSlip ? "1" : records.front().record.linear ? "N" : "Nm";
-    one.bound_active = solution.bound_active[k];
-    if (!one.bound_active) {
-      one.std = std::sqrt(covariance(i, i));
-      one.ci95_lower = one.value - kNormal95 * one.std;
-      one.ci95_upper = one.value + kNormal95 * one.std;
-    }
-    estimate.parameters.push_back(std::move(one));
+    estimate.parameters.push_back(parameter_estimate(std::string(kNames[k]),
+                                                     k >= kSlip ? "1" : effort, solution.p[k],
+                                                     covariance(i, i), solution.bound_active[k]));
   }
   estimate.termination = solution.termination;
   estimate.cost = solution.cost;
   estimate.residual = "torque along the measured motion, in standard deviations of its noise";
-  Eigen::Index row = 0;
-  for (const auto& one : records) {
-    const auto n = static_cast<Eigen::Index>(one.rows.size());
-    estimate.fits.push_back({one.record.id, Split::train,
-                             at.residual.segment(row, n).norm() / std::sqrt(static_cast<double>(n))});
-    row += n;
-  }
+  estimate.fits = recording_fits(records, at.residual);
   estimate.identifiability.condition = scaled_condition(at.jacobian);
   estimate.notes.push_back("one internal state: it forgets where earlier reversals were");
   estimate.evaluations = solution.evaluations;

@@ -7,6 +7,7 @@
 #include "torsion/free_terms.hpp"
 #include "torsion/trajectory_fit.hpp"
 #include "uncertainty/bands.hpp"
+#include "uncertainty/estimate_parts.hpp"
 
 namespace flexspline::estimators {
 
@@ -14,7 +15,6 @@ MethodRow describe_trajectory_ceres();
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
 constexpr double kMisses = 1.5;   // residual over noise from which a model misses something
 
 // f need not pass the origin of a joint that travels, and a specimen's zero is where it was clamped.
@@ -39,33 +39,12 @@ Direction direction_of(const FitProblem& problem, const MethodRow& method, bool 
 }
 
 std::vector<ParameterEstimate> parameters_of(const TrajectoryFit& fit, bool angular) {
+  const TorsionLayout& layout = fit.at.layout;
   std::vector<ParameterEstimate> list;
   for (std::size_t k = 0; k < fit.solution.p.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    ParameterEstimate one;
-    one.name = fit.at.layout.name(k);
-    one.unit = fit.at.layout.unit(k, angular);
-    one.value = fit.solution.p[k];
-    one.bound_active = fit.solution.bound_active[k];
-    if (!one.bound_active) {
-      one.std = std::sqrt(std::max(0.0, fit.covariance(i, i)));
-      one.ci95_lower = one.value - kNormal95 * one.std;
-      one.ci95_upper = one.value + kNormal95 * one.std;
-    }
-    list.push_back(std::move(one));
-  }
-  return list;
-}
-
-// Root mean square of the weighted residuals: 1 where nothing but noise is left.
-std::vector<RecordingFit> fits_of(const TrajectoryFit& fit, const std::vector<PreparedRecord>& records) {
-  std::vector<RecordingFit> list;
-  Eigen::Index row = 0;
-  for (const auto& one : records) {
-    const auto height = static_cast<Eigen::Index>(one.rows.size());
-    const double norm = fit.linear.residual.segment(row, height).norm();
-    list.push_back({one.record.id, Split::train, norm / std::sqrt(static_cast<double>(height))});
-    row += height;
+    list.push_back(parameter_estimate(layout.name(k), layout.unit(k, angular), fit.solution.p[k],
+                                      fit.covariance(i, i), fit.solution.bound_active[k]));
   }
   return list;
 }
@@ -84,7 +63,7 @@ Estimate estimate_of(const TrajectoryFit& fit, const std::vector<PreparedRecord>
                             "standard deviations of their noise"
                           : "torque: eq. (4) along the measured motion, in standard deviations of "
                             "its noise";
-  estimate.fits = fits_of(fit, records);
+  estimate.fits = recording_fits(records, fit.linear.residual);
   estimate.identifiability = {decision.condition, decision.absorbed, decision.verdict,
                               decision.says};
   estimate.bands =

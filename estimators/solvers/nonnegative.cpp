@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -25,53 +26,83 @@ Eigen::VectorXd solve_passive(const Eigen::MatrixXd& normal, const Eigen::Vector
   return n.ldlt().solve(Eigen::VectorXd(c(passive)));
 }
 
+// min y'Ny/2 - y't over y >= 0 but for the free entries, which never leave the passive set.
+class ActiveSet {
+ public:
+  ActiveSet(const Eigen::MatrixXd& normal, Eigen::VectorXd target, std::vector<bool> free)
+      : normal_(normal),
+        target_(std::move(target)),
+        free_(std::move(free)),
+        passive_(free_),
+        y_(Eigen::VectorXd::Zero(target_.size())) {}
+
+  // To the minimum over the passive set, giving up the entries that reach zero on the way.
+  void descend() {
+    for (;;) {
+      const auto list = indices(passive_);
+      if (list.empty()) return;
+      const Eigen::VectorXd trial = solve_passive(normal_, target_, list);
+      const double step = admissible_step(list, trial);
+      y_(list) += step * (trial - Eigen::VectorXd(y_(list)));
+      if (step >= 1.0) return;
+      const double zero = 1e-14 * y_.cwiseAbs().maxCoeff();
+      for (Eigen::Index k : list) {
+        if (is_free(k) || y_[k] > zero) continue;
+        y_[k] = 0.0;
+        passive_[static_cast<std::size_t>(k)] = false;
+      }
+    }
+  }
+
+  // Takes in the entry at zero that promises most; false where none does.
+  bool take_in() {
+    const double tolerance = 1e-12 * target_.cwiseAbs().maxCoeff();
+    const Eigen::VectorXd gradient = target_ - normal_ * y_;
+    Eigen::Index best = -1;
+    for (Eigen::Index k = 0; k < gradient.size(); ++k) {
+      if (passive_[static_cast<std::size_t>(k)] || !(gradient[k] > tolerance)) continue;
+      if (best < 0 || gradient[k] > gradient[best]) best = k;
+    }
+    if (best >= 0) passive_[static_cast<std::size_t>(best)] = true;
+    return best >= 0;
+  }
+
+  const Eigen::VectorXd& solution() const { return y_; }
+
+ private:
+  bool is_free(Eigen::Index k) const { return free_[static_cast<std::size_t>(k)]; }
+
+  double admissible_step(const std::vector<Eigen::Index>& list, const Eigen::VectorXd& trial) const {
+    double step = 1.0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const double z = trial[static_cast<Eigen::Index>(i)];
+      const double y = y_[list[i]];
+      if (!is_free(list[i]) && z <= 0.0) step = std::min(step, y / (y - z));
+    }
+    return step;
+  }
+
+  const Eigen::MatrixXd& normal_;
+  Eigen::VectorXd target_;
+  std::vector<bool> free_;
+  std::vector<bool> passive_;
+  Eigen::VectorXd y_;
+};
+
 }  // namespace
 
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& normal, const Eigen::VectorXd& c,
                                       const Eigen::VectorXd& lower) {
-  const Eigen::Index size = c.size();
-  // x = lower + y with y >= 0; free columns have no lower bound and never leave the passive set.
+  // x = lower + y with y >= 0.
   const Eigen::VectorXd shift = lower.unaryExpr([](double l) { return std::isfinite(l) ? l : 0.0; });
-  const Eigen::VectorXd target = c - normal * shift;
-  std::vector<bool> passive(static_cast<std::size_t>(size));
-  auto is_free = [&](Eigen::Index k) { return !std::isfinite(lower[k]); };
-  for (Eigen::Index k = 0; k < size; ++k) passive[static_cast<std::size_t>(k)] = is_free(k);
-
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(size);
-  const double tolerance = 1e-12 * target.cwiseAbs().maxCoeff();
-  for (Eigen::Index sweep = 0; sweep < 10 * size; ++sweep) {
-    for (;;) {
-      const auto list = indices(passive);
-      if (list.empty()) break;
-      const Eigen::VectorXd trial = solve_passive(normal, target, list);
-      double step = 1.0;
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        const double z = trial[static_cast<Eigen::Index>(i)];
-        if (!is_free(list[i]) && z <= 0.0) step = std::min(step, y[list[i]] / (y[list[i]] - z));
-      }
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        y[list[i]] += step * (trial[static_cast<Eigen::Index>(i)] - y[list[i]]);
-      }
-      if (step >= 1.0) break;
-      for (Eigen::Index k : list) {
-        if (!is_free(k) && y[k] <= 1e-14 * y.cwiseAbs().maxCoeff()) {
-          y[k] = 0.0;
-          passive[static_cast<std::size_t>(k)] = false;
-        }
-      }
-    }
-    const Eigen::VectorXd gradient = target - normal * y;
-    Eigen::Index best = -1;
-    for (Eigen::Index k = 0; k < size; ++k) {
-      if (!passive[static_cast<std::size_t>(k)] && gradient[k] > tolerance &&
-          (best < 0 || gradient[k] > gradient[best])) {
-        best = k;
-      }
-    }
-    if (best < 0) break;
-    passive[static_cast<std::size_t>(best)] = true;
+  std::vector<bool> free;
+  for (double l : lower) free.push_back(!std::isfinite(l));
+  ActiveSet set(normal, c - normal * shift, std::move(free));
+  for (Eigen::Index sweep = 0; sweep < 10 * c.size(); ++sweep) {
+    set.descend();
+    if (!set.take_in()) break;
   }
-  return shift + y;
+  return shift + set.solution();
 }
 
 }  // namespace flexspline::estimators
