@@ -1,6 +1,7 @@
 #include "flexspline/core/law.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,6 +19,11 @@ Result<std::unique_ptr<Law>> make_law(const LawSpec& spec) {
     return failure(ErrorCode::bad_data,
                    fmt::format("the scale of law {} is {}", spec.law, spec.scale),
                    "a scale is positive");
+  }
+  if (!std::ranges::all_of(spec.coefficients, [](double c) { return std::isfinite(c); })) {
+    return failure(ErrorCode::bad_data,
+                   fmt::format("a coefficient of law {} is not a number", spec.law),
+                   "coefficients are finite");
   }
   return row->make(spec);
 }

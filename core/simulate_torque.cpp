@@ -8,8 +8,8 @@
 namespace flexspline {
 namespace {
 
-Result<void> apply_effects(const ModelSpec& model, const Motion& motion,
-                           std::span<double> torque, bool on_instrument) {
+Result<void> apply_effects(const ModelSpec& model, const Motion& motion, std::span<double> torque,
+                           bool on_instrument) {
   for (const EffectSpec& spec : model.effects) {
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());

@@ -63,11 +63,12 @@ Result<std::unique_ptr<Law>> make(const LawSpec& spec) {
 }  // namespace
 
 LawRow describe_bounded_modulation() {
-  return {.id = "bounded_modulation",
-          .equation = "h = exp(L tanh(p(x/s)/L)), p(u) = sum_k c_k u^k, L = 1.5; h = 1 without terms",
-          .range = "0.22 <= h <= 4.48 everywhere, h(0) = 1",
-          .source = "the bounds 0 < alpha <= h <= beta of Dhaouadi and Ghorbel (2003), eq. (1)",
-          .make = make};
+  return {
+      .id = "bounded_modulation",
+      .equation = "h = exp(L tanh(p(x/s)/L)), p(u) = sum_k c_k u^k, L = 1.5; h = 1 without terms",
+      .range = "0.22 <= h <= 4.48 everywhere, h(0) = 1",
+      .source = "the bounds 0 < alpha <= h <= beta of Dhaouadi and Ghorbel (2003), eq. (1)",
+      .make = make};
 }
 
 }  // namespace flexspline

@@ -57,10 +57,11 @@ class FreeSpline final : public Law {
 
 Result<std::unique_ptr<Law>> make(const LawSpec& spec) {
   if (spec.knots.size() != 2 || !(spec.knots[0] < spec.knots[1]) || spec.coefficients.size() < 4) {
-    return failure(ErrorCode::bad_data,
-                   fmt::format("free_spline has {} knots and {} coefficients", spec.knots.size(),
-                               spec.coefficients.size()),
-                   "give both ends of its range in units of the scale and four coefficients or more");
+    return failure(
+        ErrorCode::bad_data,
+        fmt::format("free_spline has {} knots and {} coefficients", spec.knots.size(),
+                    spec.coefficients.size()),
+        "give both ends of its range in units of the scale and four coefficients or more");
   }
   return std::make_unique<FreeSpline>(spec);
 }

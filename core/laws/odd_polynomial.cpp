@@ -54,11 +54,12 @@ Result<std::unique_ptr<Law>> make(const LawSpec& spec) {
 }  // namespace
 
 LawRow describe_odd_polynomial() {
-  return {.id = "odd_polynomial",
-          .equation = "y = sum_k c_k (x/s)^(2k+1)",
-          .range = "the fitted range only: it need not increase, and leaves it with its highest power",
-          .source = "Dhaouadi and Ghorbel (2003), eqs. (20), (21)",
-          .make = make};
+  return {
+      .id = "odd_polynomial",
+      .equation = "y = sum_k c_k (x/s)^(2k+1)",
+      .range = "the fitted range only: it need not increase, and leaves it with its highest power",
+      .source = "Dhaouadi and Ghorbel (2003), eqs. (20), (21)",
+      .make = make};
 }
 
 }  // namespace flexspline

@@ -36,8 +36,8 @@ Eigen::Index best_order(const Eigen::VectorXd& rotated, double total, Eigen::Ind
   Eigen::Index order = 1;
   for (Eigen::Index k = 1; k <= most; ++k) {
     left -= rotated[2 * k - 1] * rotated[2 * k - 1] + rotated[2 * k] * rotated[2 * k];
-    const double criterion =
-        n * std::log(std::max(left, 1e-30 * total) / n) + (2.0 * static_cast<double>(k)) * std::log(n);
+    const double criterion = n * std::log(std::max(left, 1e-30 * total) / n) +
+                             (2.0 * static_cast<double>(k)) * std::log(n);
     if (criterion < best) {
       best = criterion;
       order = k;

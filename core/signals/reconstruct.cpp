@@ -40,17 +40,17 @@ void add(SmoothSignal& whole, const SmoothSignal& part, std::size_t offset, cons
   }
 }
 
-// The steady part by its harmonics, what is before and after by splines; they meet over a quarter of
-// a cycle inside the steady part.
+// The steady part by its harmonics, what is before and after by splines; they meet over a quarter
+// of a cycle inside the steady part.
 SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples,
                     const std::optional<SteadyPart>& steady, Harmonics kept) {
   const std::span<const double> time(record.time);
   const std::size_t n = time.size();
   if (!steady) return smooth_by_spline(time, samples);
   const std::size_t length = steady->last - steady->first;
-  const auto periodic = smooth_by_harmonics(time.subspan(steady->first, length),
-                                            samples.subspan(steady->first, length),
-                                            steady->period, kept);
+  const auto periodic =
+      smooth_by_harmonics(time.subspan(steady->first, length),
+                          samples.subspan(steady->first, length), steady->period, kept);
   const double begins = time[steady->first];
   const double ends = time[steady->last - 1];
   const double overlap = 0.25 * steady->period;
@@ -95,7 +95,8 @@ Result<Reconstruction> reconstruct(const TorsionRecord& record) {
   }
   Reconstruction result;
   result.steady = find_steady_part(record);
-  // A motion is differentiated and has few harmonics; an effort has kinks, which must not be rounded.
+  // A motion is differentiated and has few harmonics; an effort has kinks, which must not be
+  // rounded.
   auto motion = smooth(record, record.motion, result.steady, Harmonics::significant);
   auto effort = smooth(record, record.effort, result.steady, Harmonics::all);
   result.motion = {.time = record.time,

@@ -11,7 +11,7 @@ struct SmoothSignal {
   std::vector<double> value;
   std::vector<double> rate;
   std::vector<double> second;
-  double noise = 0.0;  ///< standard deviation of the samples, by what smoothing left of it
+  double noise = 0.0;           ///< standard deviation of the samples, by what smoothing left of it
   std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
 };
 
@@ -21,7 +21,8 @@ SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const doub
 
 /// Which harmonics a smooth signal keeps.
 enum class Harmonics {
-  significant,  ///< order by the Bayesian information criterion, those below four standard errors out
+  significant,  ///< order by the Bayesian information criterion, those below four standard errors
+                ///< out
   all,          ///< up to the 40th or a sixth of the samples of a cycle: noisier, not biased
 };
 

@@ -74,8 +74,7 @@ Eigen::MatrixXd random_signs(Eigen::Index rows) {
 
 SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples) {
   const std::size_t n = time.size();
-  const std::size_t intervals =
-      std::clamp<std::size_t>(n / kSamplesPerInterval, 4, kMostIntervals);
+  const std::size_t intervals = std::clamp<std::size_t>(n / kSamplesPerInterval, 4, kMostIntervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
   const Sparse b = design(time, basis);
   const Sparse normal = b.transpose() * b;

@@ -10,10 +10,10 @@ namespace flexspline {
 namespace {
 
 constexpr std::size_t kPhases = 200;
-constexpr double kRepeats = 0.15;     // cycles that differ by more of their rms do not repeat
-constexpr double kAsTheBest = 0.02;   // differences below this share of the rms are steady
-constexpr double kSliver = 0.02;      // of a period before the first cycle that still belongs to it
-constexpr double kAtRest = 0.5;       // of the largest cycle's rms: smaller ones are no loop
+constexpr double kRepeats = 0.15;    // cycles that differ by more of their rms do not repeat
+constexpr double kAsTheBest = 0.02;  // differences below this share of the rms are steady
+constexpr double kSliver = 0.02;     // of a period before the first cycle that still belongs to it
+constexpr double kAtRest = 0.5;      // of the largest cycle's rms: smaller ones are no loop
 
 std::vector<double> cycle_ending(const Spline& signal, double end, double period) {
   std::vector<double> cycle(kPhases);
@@ -90,8 +90,7 @@ std::optional<Run> longest_run(const Cycles& motion, const Cycles& effort) {
   if (best < 0) return std::nullopt;
   Run run{.steps = best, .cycles = 2, .allowed = std::max(1.5 * least, kAsTheBest)};
   auto agrees = [&](int k) {
-    return k >= 0 && k < motion.steps() &&
-           pair_difference(motion, effort, k, best) <= run.allowed;
+    return k >= 0 && k < motion.steps() && pair_difference(motion, effort, k, best) <= run.allowed;
   };
   while (agrees(run.steps - 2)) {
     run.steps -= 2;
@@ -124,10 +123,10 @@ std::optional<SteadyPart> steady_by(const TorsionRecord& record, double period) 
                     .cycles = run->cycles};
   if (from - record.time.front() < kSliver * period) steady.first = 0;
   const std::size_t length = steady.last - steady.first;
-  const double again = fit_sine(std::span(record.time).subspan(steady.first, length),
-                                std::span(record.motion).subspan(steady.first, length),
-                                1.0 / period)
-                           .frequency_hz;
+  const double again =
+      fit_sine(std::span(record.time).subspan(steady.first, length),
+               std::span(record.motion).subspan(steady.first, length), 1.0 / period)
+          .frequency_hz;
   if (std::abs(again * period - 1.0) < 0.1) steady.period = 1.0 / again;
   return steady;
 }

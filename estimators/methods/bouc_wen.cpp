@@ -18,16 +18,22 @@ constexpr double kDifference = 1e-5;  // of ln r and ln n, for central differenc
 enum Index : std::size_t { kFirst, kThird, kFifth, kHeight, kSlip, kExponent, kCount };
 
 ModelSpec model_at(std::span<const double> p, const Ranges& ranges) {
-  return {.f = {.law = "odd_polynomial", .scale = ranges.motion, .knots = {},
-                .coefficients = {p[kFirst], p[kThird], p[kFifth]}, .valid_to = ranges.motion},
-          .g_inverse = {.law = "odd_polynomial", .scale = ranges.velocity, .knots = {},
-                        .coefficients = {0.0}, .valid_to = ranges.velocity},
-          .h = {.law = "bounded_modulation", .scale = ranges.motion, .knots = {},
-                .coefficients = {}},
-          .effects = {{"bouc_wen",
-                       {{"height", p[kHeight]},
-                        {"slip_length", ranges.motion * std::exp(p[kSlip])},
-                        {"exponent", std::exp(p[kExponent])}}}}};
+  return {
+      .f = {.law = "odd_polynomial",
+            .scale = ranges.motion,
+            .knots = {},
+            .coefficients = {p[kFirst], p[kThird], p[kFifth]},
+            .valid_to = ranges.motion},
+      .g_inverse = {.law = "odd_polynomial",
+                    .scale = ranges.velocity,
+                    .knots = {},
+                    .coefficients = {0.0},
+                    .valid_to = ranges.velocity},
+      .h = {.law = "bounded_modulation", .scale = ranges.motion, .knots = {}, .coefficients = {}},
+      .effects = {{"bouc_wen",
+                   {{"height", p[kHeight]},
+                    {"slip_length", ranges.motion * std::exp(p[kSlip])},
+                    {"exponent", std::exp(p[kExponent])}}}}};
 }
 
 // Linear in the first four; the two shapes by central differences of the simulated torque.
@@ -57,8 +63,8 @@ class BoucWenResiduals final : public LeastSquaresProblem {
       const auto below = simulate_torque(model_at(down, ranges_), one.smooth.motion);
       if (!above || !below) return failure(ErrorCode::numerics, "no torque beside the trial point");
       for (std::size_t r = 0; r < residual.size(); ++r) {
-        jacobian[r * kCount + k] = ((*above)[one.rows[r]] - (*below)[one.rows[r]]) /
-                                   (2.0 * step * one.effort_noise);
+        jacobian[r * kCount + k] =
+            ((*above)[one.rows[r]] - (*below)[one.rows[r]]) / (2.0 * step * one.effort_noise);
       }
     }
     return {};
@@ -85,8 +91,8 @@ std::vector<BoundedParameter> start_at(const Ranges& ranges, double slip) {
 Estimate estimate_of(const LeastSquaresSolution& solution, const Linearisation& at,
                      const std::vector<PreparedRecord>& records, const Ranges& ranges,
                      const BoucWenResiduals& problem) {
-  static constexpr std::string_view kNames[] = {"f[1]", "f[2]", "f[3]", "height",
-                                                "ln_slip_over_range", "ln_exponent"};
+  static constexpr std::string_view kNames[] = {
+      "f[1]", "f[2]", "f[3]", "height", "ln_slip_over_range", "ln_exponent"};
   const Eigen::MatrixXd covariance =
       sandwich(at.jacobian, score_covariance(problem, at), solution.bound_active);
   Estimate estimate;

@@ -34,11 +34,12 @@ Result<Estimate> fit(const FitProblem& problem) {
 }  // namespace
 
 MethodRow describe_midpoint_polynomial() {
-  return {.id = "midpoint_polynomial",
-          .summary = "the paper's fit: midpoint locus of one loop, odd five-term polynomials, h = 1",
-          .source = "Dhaouadi and Ghorbel (2003), eqs. (15)-(25)",
-          .options = {},
-          .fit = fit};
+  return {
+      .id = "midpoint_polynomial",
+      .summary = "the paper's fit: midpoint locus of one loop, odd five-term polynomials, h = 1",
+      .source = "Dhaouadi and Ghorbel (2003), eqs. (15)-(25)",
+      .options = {},
+      .fit = fit};
 }
 
 }  // namespace flexspline::estimators

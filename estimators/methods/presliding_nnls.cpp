@@ -52,9 +52,8 @@ Estimate estimate_of(const Eigen::VectorXd& x, const SlipRegression& linear,
   estimate.model = slip_model(x, ranges);
   const std::string unit = records.front().record.linear ? "N" : "Nm";
   for (Eigen::Index k = 0; k < x.size(); ++k) {
-    estimate.parameters.push_back(parameter_estimate(slip_column_name(k), unit, x[k],
-                                                     covariance(k, k),
-                                                     active[static_cast<std::size_t>(k)]));
+    estimate.parameters.push_back(parameter_estimate(
+        slip_column_name(k), unit, x[k], covariance(k, k), active[static_cast<std::size_t>(k)]));
   }
   estimate.termination = Termination::converged;
   estimate.cost = 0.5 * residual.squaredNorm();
@@ -76,10 +75,9 @@ Result<Estimate> fit(const FitProblem& problem) {
   const Ranges ranges = ranges_of(*records, false);
   const auto linear = slip_regression(*records, ranges);
   if (!linear) return tl::unexpected(linear.error());
-  const Eigen::VectorXd x =
-      bounded_least_squares(linear->matrix.transpose() * linear->matrix,
-                            linear->matrix.transpose() * linear->target,
-                            Eigen::VectorXd::Zero(linear->matrix.cols()));
+  const Eigen::VectorXd x = bounded_least_squares(linear->matrix.transpose() * linear->matrix,
+                                                  linear->matrix.transpose() * linear->target,
+                                                  Eigen::VectorXd::Zero(linear->matrix.cols()));
   Estimate estimate = estimate_of(x, *linear, *records, ranges);
   estimate.evaluations = 1;
   estimate.seconds =
@@ -91,8 +89,9 @@ Result<Estimate> fit(const FitProblem& problem) {
 
 MethodRow describe_presliding_nnls() {
   return {.id = "presliding_nnls",
-          .summary = "f, Maxwell slip on a fixed grid of yields and a linear damper by non-negative "
-                     "least squares along the motion",
+          .summary =
+              "f, Maxwell slip on a fixed grid of yields and a linear damper by non-negative "
+              "least squares along the motion",
           .source = "Prandtl and Ishlinskii stop operators; Lawson and Hanson (1974)",
           .options = {},
           .fit = fit};

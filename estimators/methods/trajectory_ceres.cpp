@@ -15,9 +15,10 @@ MethodRow describe_trajectory_ceres();
 
 namespace {
 
-constexpr double kMisses = 1.5;   // residual over noise from which a model misses something
+constexpr double kMisses = 1.5;  // residual over noise from which a model misses something
 
-// f need not pass the origin of a joint that travels, and a specimen's zero is where it was clamped.
+// f need not pass the origin of a joint that travels, and a specimen's zero is where it was
+// clamped.
 FreeTerms base_terms(const std::vector<PreparedRecord>& records) {
   FreeTerms base;
   const bool travels = records.front().record.travels;
@@ -58,26 +59,27 @@ Estimate estimate_of(const TrajectoryFit& fit, const std::vector<PreparedRecord>
   estimate.parameters = parameters_of(fit, !records.front().record.linear);
   estimate.termination = fit.solution.termination;
   estimate.cost = fit.solution.cost;
-  estimate.residual = fit.direction == Direction::torsion
-                          ? "torsion: innovations of eq. (3) integrated from the measured torque, in "
-                            "standard deviations of their noise"
-                          : "torque: eq. (4) along the measured motion, in standard deviations of "
-                            "its noise";
+  estimate.residual =
+      fit.direction == Direction::torsion
+          ? "torsion: innovations of eq. (3) integrated from the measured torque, in "
+            "standard deviations of their noise"
+          : "torque: eq. (4) along the measured motion, in standard deviations of "
+            "its noise";
   estimate.fits = recording_fits(records, fit.linear.residual);
   estimate.identifiability = {decision.condition, decision.absorbed, decision.verdict,
                               decision.says};
-  estimate.bands =
-      torsion_bands(fit.at.layout, fit.solution.p, fit.covariance,
-                    {ranges.lowest_motion, ranges.highest_motion, ranges.velocity});
+  estimate.bands = torsion_bands(fit.at.layout, fit.solution.p, fit.covariance,
+                                 {ranges.lowest_motion, ranges.highest_motion, ranges.velocity});
   estimate.notes = decision.notes;
   estimate.evaluations = fit.solution.evaluations;
   return estimate;
 }
 
 std::string misfit_note(const Leftover& left) {
-  return fmt::format("eq. (4) with these laws leaves {:.3g} times the noise of the recordings: "
-                     "something is left out",
-                     left.residual / left.noise);
+  return fmt::format(
+      "eq. (4) with these laws leaves {:.3g} times the noise of the recordings: "
+      "something is left out",
+      left.residual / left.noise);
 }
 
 Result<Estimate> fit(const FitProblem& problem) {
@@ -105,8 +107,8 @@ Result<Estimate> fit(const FitProblem& problem) {
   const auto start = chosen_start(*records, base, *richest, decision->free);
   if (!start) return tl::unexpected(start.error());
 
-  const SolverSettings settings{
-      .max_iterations = static_cast<int>(number(problem, method, "iterations"))};
+  const SolverSettings settings{.max_iterations =
+                                    static_cast<int>(number(problem, method, "iterations"))};
   auto result = fit_torque(with_terms(*start, decision->free), *records, settings);
   if (!result) return tl::unexpected(result.error());
   const Leftover left = leftover(*result, *records);
@@ -131,8 +133,9 @@ Result<Estimate> fit(const FitProblem& problem) {
 
 MethodRow describe_trajectory_ceres() {
   return {.id = "trajectory_ceres",
-          .summary = "f, g^-1 and h of eq. (3) over whole recordings: CVODES with forward "
-                     "sensitivities inside Ceres",
+          .summary =
+              "f, g^-1 and h of eq. (3) over whole recordings: CVODES with forward "
+              "sensitivities inside Ceres",
           .source = "Dhaouadi and Ghorbel (2003), eqs. (3), (4); laws of the catalogue",
           .options = {{.name = "simulate",
                        .meaning = "what is simulated and compared: torsion by eq. (3) from the "

@@ -8,8 +8,7 @@ namespace {
 
 const std::vector<double> kMotionKnots = {0.25, 0.5, 0.75};
 // Yields in units of the largest motion: a fixed grid makes the fit linear.
-const std::vector<double> kYields = {0.03, 0.06, 0.1, 0.15, 0.22, 0.3,
-                                     0.4,  0.5,  0.65, 0.8, 0.95};
+const std::vector<double> kYields = {0.03, 0.06, 0.1, 0.15, 0.22, 0.3, 0.4, 0.5, 0.65, 0.8, 0.95};
 
 // The whole path counts, samples without a residual too: the stops remember it.
 Eigen::MatrixXd regressors(const PreparedRecord& one, const Ranges& ranges, const Law& f) {
@@ -67,8 +66,11 @@ ModelSpec slip_model(const Eigen::VectorXd& x, const Ranges& ranges) {
   const SlipColumns c = slip_columns();
   ModelSpec model;
   model.f = slip_stiffness_law(ranges, x);
-  model.g_inverse = {.law = "odd_polynomial", .scale = ranges.velocity, .knots = {},
-                     .coefficients = {x[c.f + c.stops]}, .valid_to = ranges.velocity};
+  model.g_inverse = {.law = "odd_polynomial",
+                     .scale = ranges.velocity,
+                     .knots = {},
+                     .coefficients = {x[c.f + c.stops]},
+                     .valid_to = ranges.velocity};
   model.h = {.law = "bounded_modulation", .scale = ranges.motion, .knots = {}, .coefficients = {}};
   EffectSpec stops{.effect = "presliding_hysteresis", .parameters = {}};
   for (Eigen::Index k = 0; k < c.stops; ++k) {
@@ -80,7 +82,8 @@ ModelSpec slip_model(const Eigen::VectorXd& x, const Ranges& ranges) {
   return model;
 }
 
-Result<SlipRegression> slip_regression(const std::vector<PreparedRecord>& records, const Ranges& ranges) {
+Result<SlipRegression> slip_regression(const std::vector<PreparedRecord>& records,
+                                       const Ranges& ranges) {
   const auto f = make_law(slip_stiffness_law(ranges, Eigen::VectorXd::Zero(slip_columns().size())));
   if (!f) return tl::unexpected(f.error());
   Eigen::Index rows = 0;

@@ -10,8 +10,8 @@
 
 namespace flexspline::estimators {
 
-/// Columns of the linear model of slip: f's coefficients, the stiffness of every stop of a fixed grid
-/// of yields, a linear viscous term. All in Nm (N) at the largest motion and speed.
+/// Columns of the linear model of slip: f's coefficients, the stiffness of every stop of a fixed
+/// grid of yields, a linear viscous term. All in Nm (N) at the largest motion and speed.
 struct SlipColumns {
   Eigen::Index f = 0;
   Eigen::Index stops = 0;

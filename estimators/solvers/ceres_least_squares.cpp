@@ -150,11 +150,15 @@ Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
   Log log;
   LeastSquaresSolution solution;
   std::vector<int> held;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0;; ++round) {
     const auto gradient = scaled_gradient(problem, parameters, x);
     if (!gradient) return tl::unexpected(in_context(gradient.error(), "the start of the fit"));
     auto now_held = held_on_bounds(parameters, x, *gradient);
     if (round > 0 && now_held == held) break;
+    if (round == kRounds) {
+      solution.termination = Termination::iteration_limit;
+      break;
+    }
     held = std::move(now_held);
     const auto summary = solve_holding(problem, parameters, held, settings, x, log);
     if (summary.termination_type == ceres::FAILURE) {

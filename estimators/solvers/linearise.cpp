@@ -18,8 +18,8 @@ Result<Linearisation> linearise(const LeastSquaresProblem& problem, std::span<co
     const auto done = problem.evaluate(b, p, residual, jacobian);
     if (!done) return tl::unexpected(done.error());
     result.residual.segment(row, height) = Eigen::Map<Eigen::VectorXd>(residual.data(), height);
-    result.jacobian.middleRows(row, height) = Eigen::Map<RowMajorMatrix>(
-        jacobian.data(), height, static_cast<Eigen::Index>(p.size()));
+    result.jacobian.middleRows(row, height) =
+        Eigen::Map<RowMajorMatrix>(jacobian.data(), height, static_cast<Eigen::Index>(p.size()));
     row += height;
   }
   return result;

@@ -72,7 +72,8 @@ class ActiveSet {
  private:
   bool is_free(Eigen::Index k) const { return free_[static_cast<std::size_t>(k)]; }
 
-  double admissible_step(const std::vector<Eigen::Index>& list, const Eigen::VectorXd& trial) const {
+  double admissible_step(const std::vector<Eigen::Index>& list,
+                         const Eigen::VectorXd& trial) const {
     double step = 1.0;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const double z = trial[static_cast<Eigen::Index>(i)];
@@ -94,7 +95,8 @@ class ActiveSet {
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& normal, const Eigen::VectorXd& c,
                                       const Eigen::VectorXd& lower) {
   // x = lower + y with y >= 0.
-  const Eigen::VectorXd shift = lower.unaryExpr([](double l) { return std::isfinite(l) ? l : 0.0; });
+  const Eigen::VectorXd shift =
+      lower.unaryExpr([](double l) { return std::isfinite(l) ? l : 0.0; });
   std::vector<bool> free;
   for (double l : lower) free.push_back(!std::isfinite(l));
   ActiveSet set(normal, c - normal * shift, std::move(free));

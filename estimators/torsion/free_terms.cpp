@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "torsion/torque_residuals.hpp"
 #include "uncertainty/covariance.hpp"
@@ -66,9 +66,10 @@ double largest_rate(const std::vector<PreparedRecord>& records) {
 
 std::string says_of(double sd, double cosine, std::size_t records, bool free) {
   if (free) {
-    return fmt::format("h can be told from f and g^-1 on these {} recordings: ln h to +-{:.2g} at "
-                       "0.9 of the range (largest cosine {:.4f})",
-                       records, sd, cosine);
+    return fmt::format(
+        "h can be told from f and g^-1 on these {} recordings: ln h to +-{:.2g} at "
+        "0.9 of the range (largest cosine {:.4f})",
+        records, sd, cosine);
   }
   return fmt::format(
       "h cannot be identified from {}: a direction of ln h lies within cosine {:.6f} of what f and "
@@ -110,24 +111,22 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   if (!allowed.h) decision.notes.push_back("h = 1 was asked for");
 
   const Ranges ranges = ranges_of(records, base.zeros);
-  const std::vector<Candidate> candidates = {
-      {"inertia", layout.inertia_group, ranges.acceleration},
-      {"delay", layout.delay_group, largest_rate(records)}};
+  const std::vector<Candidate> candidates = {{"inertia", layout.inertia_group, ranges.acceleration},
+                                             {"delay", layout.delay_group, largest_rate(records)}};
   const auto with_h = decision.free.h > 0 ? joined(rest, h_columns) : rest;
   for (const auto& candidate : candidates) {
     const auto own = columns_of(candidate.group);
     const Eigen::MatrixXd covariance = covariance_of(j(Eigen::all, joined(with_h, own)));
     const double sd = std::sqrt(covariance(covariance.rows() - 1, covariance.cols() - 1)) *
                       candidate.torque_per_unit / ranges.effort;
-    decision.absorbed.push_back(
-        {candidate.name, "f, g_inverse",
-         largest_cosine(j(Eigen::all, own), j(Eigen::all, with_h))});
+    decision.absorbed.push_back({candidate.name, "f, g_inverse",
+                                 largest_cosine(j(Eigen::all, own), j(Eigen::all, with_h))});
     const bool can = sd <= kTorqueLimit;
     const bool may = candidate.name == "inertia" ? allowed.inertia : allowed.delay;
     (candidate.name == "inertia" ? decision.free.inertia : decision.free.delay) = may && can;
     if (may && !can) {
-      decision.notes.push_back(
-          fmt::format("{} is not fitted: f and g^-1 imitate it on these recordings", candidate.name));
+      decision.notes.push_back(fmt::format(
+          "{} is not fitted: f and g^-1 imitate it on these recordings", candidate.name));
     }
   }
   return decision;

@@ -27,8 +27,8 @@ struct TermDecision {
 
 /// Decides at a fit of f and g^-1 alone by the Jacobian of eq. (4) with all terms: a term is free
 /// where its standard deviation, at the noise of the recordings, is small enough to matter: 0.1 in
-/// ln h, 2 % of peak effort in inertia and delay; ln h also has to keep clear (cosine 0.999) of what
-/// f and g^-1 can imitate.
+/// ln h, 2 % of peak effort in inertia and delay; ln h also has to keep clear (cosine 0.999) of
+/// what f and g^-1 can imitate.
 Result<TermDecision> decide_terms(const LinearStart& start,
                                   const std::vector<PreparedRecord>& records, FreeTerms base,
                                   AllowedTerms allowed);

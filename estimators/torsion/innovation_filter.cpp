@@ -32,7 +32,8 @@ InnovationFilter::InnovationFilter(const PreparedRecord& record, std::span<const
   std::size_t next = 0;
   for (std::size_t i = 0; i < time.size() && next < record.rows.size(); ++i) {
     if (record.rows[next] == i) {
-      const double error = std::max(record.smooth.motion_error[i], kLeastError * record.motion_sigma);
+      const double error =
+          std::max(record.smooth.motion_error[i], kLeastError * record.motion_sigma);
       const double innovation = variance + error * error;
       const double update = variance / innovation;
       steps_.push_back({transition, update, 1.0 / std::sqrt(innovation)});

@@ -11,9 +11,10 @@ namespace flexspline::estimators {
 /// drives eq. (3) is off by its own noise and by what the noise of the motion is worth in torque
 /// (effort_sigma), and the gear remembers: delta phi' = decay delta phi + gain delta tau; the
 /// reconstructed motion adds its error. The innovations of the scalar
-/// Kalman filter of that equation are independent (Schweppe 1965), so their least squares is maximum
-/// likelihood; plain least squares of phi would overweight the soft middle of the spring, where a
-/// little torque is much torsion. decay in 1/s, gain in rad/s per Nm, at the record's instants.
+/// Kalman filter of that equation are independent (Schweppe 1965), so their least squares is
+/// maximum likelihood; plain least squares of phi would overweight the soft middle of the spring,
+/// where a little torque is much torsion. decay in 1/s, gain in rad/s per Nm, at the record's
+/// instants.
 class InnovationFilter {
  public:
   InnovationFilter(const PreparedRecord& record, std::span<const double> decay,

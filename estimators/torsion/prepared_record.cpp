@@ -22,9 +22,9 @@ double encoder_step(const std::vector<double>& motion) {
   return repeats * 100 > motion.size() ? step : 0.0;
 }
 
-// Where a record has a steady part only that has residuals: in a run-up the derivatives of the motion
-// are known from a smoothing spline alone, and its errors are not those of the bench. The run-up is
-// simulated and carries the state along.
+// Where a record has a steady part only that has residuals: in a run-up the derivatives of the
+// motion are known from a smoothing spline alone, and its errors are not those of the bench. The
+// run-up is simulated and carries the state along.
 std::vector<std::size_t> rows_of(const TorsionRecord& record,
                                  const std::optional<SteadyPart>& steady, std::size_t most) {
   const std::size_t first = steady ? steady->first : 0;
@@ -55,7 +55,8 @@ Result<std::vector<PreparedRecord>> prepare(const std::vector<TorsionRecord>& re
                        .effort = Spline(t, smooth->effort),
                        .rows = rows_of(record, smooth->steady, most_rows)};
     const double quantisation = encoder_step(record.motion) / std::sqrt(12.0);
-    const double range = *std::ranges::max_element(m.position) - *std::ranges::min_element(m.position);
+    const double range =
+        *std::ranges::max_element(m.position) - *std::ranges::min_element(m.position);
     one.motion_sigma = std::max({smooth->motion_noise, quantisation, 1e-6 * range});
     one.effort_noise = smooth->effort_noise;
     prepared.push_back(std::move(one));

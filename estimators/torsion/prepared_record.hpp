@@ -13,9 +13,10 @@ struct PreparedRecord {
   TorsionRecord record;
   Reconstruction smooth;
   Spline position, velocity, acceleration, effort;
-  std::vector<std::size_t> rows;  ///< valid samples of the steady part (or of all), thinned where very many
-  double motion_sigma = 0.0;      ///< of measured motion, never below a step of its encoder
-  double effort_noise = 0.0;      ///< of measured effort
+  std::vector<std::size_t>
+      rows;  ///< valid samples of the steady part (or of all), thinned where very many
+  double motion_sigma = 0.0;           ///< of measured motion, never below a step of its encoder
+  double effort_noise = 0.0;           ///< of measured effort
   std::vector<double> effort_sigma{};  ///< a row: noise of effort and of the motion it follows
 };
 

@@ -43,7 +43,10 @@ LawSpec motion_law(const Ranges& ranges, bool travels, std::size_t sides, std::s
   const double scale = ranges.motion * kMotionMargin;
   if (!travels) {
     size = sides * (kMotionKnots.size() + 3);
-    return {.law = "monotone_spline", .scale = scale, .knots = kMotionKnots, .coefficients = {},
+    return {.law = "monotone_spline",
+            .scale = scale,
+            .knots = kMotionKnots,
+            .coefficients = {},
             .valid_to = ranges.motion};
   }
   size = kTravelIntervals + 3;
@@ -68,8 +71,8 @@ TorsionLayout layout_for(const std::vector<PreparedRecord>& records, const Range
   std::vector<std::string> ids;
   for (const auto& one : records) ids.push_back(one.record.id);
   const double h_scale = ranges.motion * kMotionMargin;
-  return TorsionLayout(std::move(f), f_size, g,
-                       candidate.g_sides * (velocity_knots.size() + 3), h_scale, std::move(ids), free);
+  return TorsionLayout(std::move(f), f_size, g, candidate.g_sides * (velocity_knots.size() + 3),
+                       h_scale, std::move(ids), free);
 }
 
 void start_nuisances(const TorsionLayout& layout, const std::vector<PreparedRecord>& records,
@@ -141,9 +144,9 @@ Result<Eigen::MatrixXd> directions_beside(const std::vector<PreparedRecord>& rec
   const auto& layout = probe.layout;
   const auto linear = linearise(TorqueResiduals(layout, records), probe.p);
   if (!linear) return tl::unexpected(linear.error());
-  Eigen::MatrixXd beside = linear->jacobian(
-      Eigen::all, columns_of({&layout.h_group, &layout.inertia_group, &layout.delay_group,
-                              &layout.zero_group}));
+  Eigen::MatrixXd beside =
+      linear->jacobian(Eigen::all, columns_of({&layout.h_group, &layout.inertia_group,
+                                               &layout.delay_group, &layout.zero_group}));
   beside.colwise().normalize();
   return beside;
 }
@@ -178,8 +181,8 @@ std::vector<BoundedParameter> bounded_parameters(const TorsionLayout& layout,
 Result<LinearStart> richest_start(const std::vector<PreparedRecord>& records, FreeTerms base) {
   const Ranges ranges = ranges_of(records, base.zeros);
   const bool travels = records.front().record.travels;
-  TorsionLayout layout = layout_for(records, ranges,
-                                    {travels ? std::size_t{1} : 2, 2, &kVelocityKnots.front()}, base);
+  TorsionLayout layout =
+      layout_for(records, ranges, {travels ? std::size_t{1} : 2, 2, &kVelocityKnots.front()}, base);
   auto fit = linear_fit(layout, records, Eigen::MatrixXd(rows_of(records), 0));
   if (!fit) return tl::unexpected(fit.error());
   return LinearStart{std::move(layout), std::move(fit->p)};

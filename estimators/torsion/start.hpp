@@ -23,8 +23,8 @@ Result<LinearStart> richest_start(const std::vector<PreparedRecord>& records, Fr
 
 /// f and g^-1 each odd or with two sides of its own, g^-1 with knots in even steps or in decades,
 /// as the Bayesian criterion of eq. (4) prefers. The directions of the terms that will be free
-/// beside them, taken at the richest start, compete in it, so that a class is not chosen to stand in
-/// for one of them.
+/// beside them, taken at the richest start, compete in it, so that a class is not chosen to stand
+/// in for one of them.
 Result<LinearStart> chosen_start(const std::vector<PreparedRecord>& records, FreeTerms base,
                                  const LinearStart& richest, FreeTerms beside);
 

@@ -45,7 +45,7 @@ Result<TorqueLaw> law_at(const TorsionLayout& layout, std::span<const double> p)
   for (const auto* law : {&f, &g_inverse, &h}) {
     if (!*law) return tl::unexpected(law->error());
   }
-  return TorqueLaw{std::move(*f),       std::move(*g_inverse), std::move(*h),
+  return TorqueLaw{std::move(*f),     std::move(*g_inverse), std::move(*h),
                    layout.inertia(p), layout.delay(p),       layout.offset(p)};
 }
 
@@ -105,9 +105,9 @@ Result<std::vector<double>> TorqueResiduals::motion_slope(std::size_t block,
   const auto& motion = one.smooth.motion;
   std::vector<double> slopes;
   for (std::size_t row : one.rows) {
-    slopes.push_back(law->along_motion({motion.time[row],
-                                        motion.position[row] - layout_.zero(block, p),
-                                        motion.velocity[row], motion.acceleration[row]}));
+    slopes.push_back(
+        law->along_motion({motion.time[row], motion.position[row] - layout_.zero(block, p),
+                           motion.velocity[row], motion.acceleration[row]}));
   }
   return slopes;
 }

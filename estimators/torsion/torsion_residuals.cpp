@@ -12,8 +12,8 @@ namespace {
 // The state is x = phi / scale, so that tolerances mean the same for every gear.
 class TorqueDriven final : public ScalarOde {
  public:
-  TorqueDriven(const TorsionLayout& layout, const PreparedRecord& record,
-               std::span<const double> p, bool sensitive, const Law& f, const Law& h)
+  TorqueDriven(const TorsionLayout& layout, const PreparedRecord& record, std::span<const double> p,
+               bool sensitive, const Law& f, const Law& h)
       : layout_(layout),
         record_(record),
         f_(f),
@@ -102,8 +102,8 @@ Result<Laws> laws_at(const TorsionLayout& layout, std::span<const double> p) {
   return Laws{std::move(*f), std::move(*h)};
 }
 
-double initial_torsion(const TorsionLayout& layout, const PreparedRecord& record,
-                       std::size_t block, std::span<const double> p) {
+double initial_torsion(const TorsionLayout& layout, const PreparedRecord& record, std::size_t block,
+                       std::span<const double> p) {
   return layout.initial_group.present() ? p[layout.initial_group.first + block]
                                         : record.position.value(record.record.time.front());
 }
@@ -157,8 +157,8 @@ Result<void> TorsionResiduals::weigh(std::span<const double> p) {
     std::vector<double> decay;
     std::vector<double> gain;
     for (std::size_t i = 0; i < one.record.time.size(); ++i) {
-      const double x = (one.smooth.motion.position[i] - layout_.zero(block, p)) /
-                       laws->f->spec().scale;
+      const double x =
+          (one.smooth.motion.position[i] - layout_.zero(block, p)) / laws->f->spec().scale;
       decay.push_back(ode.decay(x, one.smooth.motion.velocity[i]));
       gain.push_back(ode.gain(x, one.smooth.motion.velocity[i]));
     }

@@ -11,8 +11,8 @@ namespace flexspline::estimators {
 
 /// Torque-driven, eq. (3): phi' = h(phi) g(tau - o - J phi'' - f(phi)) is integrated over the whole
 /// record from its initial torsion, with the smooth torque as input and forward sensitivities; the
-/// residuals are the innovations of phi simulated + zero - reconstructed, a block a record. phi'' is the
-/// measured one.
+/// residuals are the innovations of phi simulated + zero - reconstructed, a block a record. phi''
+/// is the measured one.
 class TorsionResiduals final : public LeastSquaresProblem {
  public:
   TorsionResiduals(const TorsionLayout& layout, const std::vector<PreparedRecord>& records,

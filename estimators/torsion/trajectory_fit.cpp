@@ -31,8 +31,8 @@ Eigen::MatrixXd covariance_of(const std::vector<PreparedRecord>& records, const 
 }
 
 Result<TrajectoryFit> minimised(const LeastSquaresProblem& problem, LinearStart start,
-                      const std::vector<PreparedRecord>& records, const SolverSettings& settings,
-                      Direction direction) {
+                                const std::vector<PreparedRecord>& records,
+                                const SolverSettings& settings, Direction direction) {
   const auto bounds = bounded_parameters(start.layout, records, start.p);
   auto solution = minimise(problem, bounds, settings);
   if (!solution) return tl::unexpected(solution.error());
@@ -44,8 +44,9 @@ Result<TrajectoryFit> minimised(const LeastSquaresProblem& problem, LinearStart 
   return fit;
 }
 
-Result<TrajectoryFit> fit_torque_once(const LinearStart& start, const std::vector<PreparedRecord>& records,
-                       const SolverSettings& settings) {
+Result<TrajectoryFit> fit_torque_once(const LinearStart& start,
+                                      const std::vector<PreparedRecord>& records,
+                                      const SolverSettings& settings) {
   const TorqueResiduals problem(start.layout, records);
   return minimised(problem, start, records, settings, Direction::torque);
 }
@@ -86,8 +87,9 @@ Result<void> add_motion_noise(std::vector<PreparedRecord>& records, const Linear
   return {};
 }
 
-Result<TrajectoryFit> fit_torque(const LinearStart& start, const std::vector<PreparedRecord>& records,
-                              const SolverSettings& settings) {
+Result<TrajectoryFit> fit_torque(const LinearStart& start,
+                                 const std::vector<PreparedRecord>& records,
+                                 const SolverSettings& settings) {
   auto fit = fit_torque_once(start, records, settings);
   while (fit) {
     const FreeTerms kept = significant_terms(*fit);
@@ -97,8 +99,10 @@ Result<TrajectoryFit> fit_torque(const LinearStart& start, const std::vector<Pre
   return fit;
 }
 
-Result<TrajectoryFit> fit_torsion(const TrajectoryFit& from, const std::vector<PreparedRecord>& records,
-                        const SolverSettings& settings, const IntegratorSettings& integrator) {
+Result<TrajectoryFit> fit_torsion(const TrajectoryFit& from,
+                                  const std::vector<PreparedRecord>& records,
+                                  const SolverSettings& settings,
+                                  const IntegratorSettings& integrator) {
   FreeTerms free = from.at.layout.free_terms();
   free.initial =
       std::ranges::any_of(records, [](const auto& one) { return !one.smooth.steady.has_value(); });

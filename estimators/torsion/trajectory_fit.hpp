@@ -24,9 +24,9 @@ struct TrajectoryFit {
 /// start: effort follows motion.
 Result<void> add_motion_noise(std::vector<PreparedRecord>& records, const LinearStart& at);
 
-/// Fits eq. (4). Offset, inertia, delay and the highest terms of ln h that lie within three standard
-/// deviations of zero are taken out one round after another: kept, they would only pass their
-/// uncertainty on to g^-1. ln h keeps two terms.
+/// Fits eq. (4). Offset, inertia, delay and the highest terms of ln h that lie within three
+/// standard deviations of zero are taken out one round after another: kept, they would only pass
+/// their uncertainty on to g^-1. ln h keeps two terms.
 Result<TrajectoryFit> fit_torque(const LinearStart& start,
                                  const std::vector<PreparedRecord>& records,
                                  const SolverSettings& settings);

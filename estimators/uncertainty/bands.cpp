@@ -45,8 +45,8 @@ std::vector<FunctionBand> torsion_bands(const TorsionLayout& layout, std::span<c
   const auto g_inverse = make_law(layout.g_inverse(p));
   const auto h = make_law(layout.h(p));
   expects(f && g_inverse && h, "the laws of an estimate can be made");
-  bands.push_back(law_band("f", **f, block(covariance, layout.f_group), domain.motion_from,
-                           domain.motion_to));
+  bands.push_back(
+      law_band("f", **f, block(covariance, layout.f_group), domain.motion_from, domain.motion_to));
   bands.push_back(law_band("g_inverse", **g_inverse, block(covariance, layout.g_group),
                            -domain.velocity, domain.velocity));
   if (layout.h_group.present()) {

@@ -55,8 +55,7 @@ Eigen::MatrixXd score_covariance(const LeastSquaresProblem& problem, const Linea
   for (std::size_t b = 0; b < problem.blocks(); ++b) {
     const auto height = static_cast<Eigen::Index>(problem.residuals(b));
     const Eigen::VectorXd r = at.residual.segment(row, height);
-    const Eigen::MatrixXd score =
-        at.jacobian.middleRows(row, height).array().colwise() * r.array();
+    const Eigen::MatrixXd score = at.jacobian.middleRows(row, height).array().colwise() * r.array();
     middle += score.transpose() * score;
     const int lags =
         bandwidth(std::span<const double>(r.data(), static_cast<std::size_t>(r.size())));
@@ -85,9 +84,8 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd&
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
   const double floor = kNoInformation * eigen.eigenvalues().maxCoeff();
   const Eigen::VectorXd inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
-  const Eigen::MatrixXd bread = scale.asDiagonal() * eigen.eigenvectors() *
-                                inverse.asDiagonal() * eigen.eigenvectors().transpose() *
-                                scale.asDiagonal();
+  const Eigen::MatrixXd bread = scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
+                                eigen.eigenvectors().transpose() * scale.asDiagonal();
   // Along a flat direction the middle vanishes too: rounding must not pass for information.
   const Eigen::VectorXd flat =
       (eigen.eigenvalues().array() < floor).select(inverse, Eigen::VectorXd::Zero(inverse.size()));

@@ -14,8 +14,8 @@ namespace flexspline::estimators {
 ParameterEstimate parameter_estimate(std::string name, std::string unit, double value,
                                      double variance, bool bound_active);
 
-/// Root mean square of the weighted residuals of every record, whose rows stand one record below the
-/// other.
+/// Root mean square of the weighted residuals of every record, whose rows stand one record below
+/// the other.
 std::vector<RecordingFit> recording_fits(const std::vector<PreparedRecord>& records,
                                          const Eigen::VectorXd& residual);
 

@@ -80,8 +80,8 @@ Result<bool> leaves_domain(const ModelSpec& model, const Motion& motion,
 void keep_series(const ComparedSeries& series, RecordingComparison& comparison) {
   const bool cyclic = series.cycle_last > series.cycle_first;
   const std::size_t closing = series.cycle_first > 0 ? series.cycle_first - 1 : 0;
-  const auto kept = cyclic ? kept_indices(closing, series.cycle_last)
-                           : kept_indices(0, series.motion.size());
+  const auto kept =
+      cyclic ? kept_indices(closing, series.cycle_last) : kept_indices(0, series.motion.size());
   comparison.motion = at_indices(series.motion, kept);
   comparison.measured = at_indices(series.measured, kept);
   comparison.simulated = at_indices(series.simulated, kept);

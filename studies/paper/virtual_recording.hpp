@@ -17,7 +17,7 @@ struct PaperExperiment {
   Recording recording;   ///< motor angle and torque as the sensors show them, SI
   TorsionRecord record;  ///< the same as torque over torsion
   estimators::MidpointLocus locus;
-  Estimate estimate;     ///< by the paper's own method
+  Estimate estimate;  ///< by the paper's own method
 };
 
 /// Errors: the truth table_i, the bench or the method midpoint_polynomial fail.

@@ -103,13 +103,12 @@ TEST_P(MemoryEffect, DoesNotKnowTheClock) {
 
 INSTANTIATE_TEST_SUITE_P(
     RateIndependent, MemoryEffect,
-    testing::Values(std::pair<std::string, Parameters>{"presliding_hysteresis",
-                                                       {{"stiffness", 900.0},
-                                                        {"yield", 3e-4},
-                                                        {"stiffness", 400.0},
-                                                        {"yield", 1.1e-3}}},
-                    std::pair<std::string, Parameters>{
-                        "bouc_wen", {{"height", 4.5}, {"slip_length", 3e-4}, {"exponent", 1.7}}}),
+    testing::Values(
+        std::pair<std::string, Parameters>{
+            "presliding_hysteresis",
+            {{"stiffness", 900.0}, {"yield", 3e-4}, {"stiffness", 400.0}, {"yield", 1.1e-3}}},
+        std::pair<std::string, Parameters>{
+            "bouc_wen", {{"height", 4.5}, {"slip_length", 3e-4}, {"exponent", 1.7}}}),
     [](const auto& param) { return param.param.first; });
 
 constexpr double kStep = 1.0 / 64.0;  // exact in binary: the stops yield on samples
@@ -119,8 +118,8 @@ TEST(PreslidingHysteresis, LosesFourTimesTheYieldForceTimesTheSlip) {
     for (double amplitude : {1.0, 2.0}) {
       const double a = amplitude;
       const auto motion = zigzag({0.0, a, -a, a, -a, a}, kStep);
-      const auto torque = torque_of("presliding_hysteresis", {{"stiffness", 3.0}, {"yield", yield}},
-                                    motion);
+      const auto torque =
+          torque_of("presliding_hysteresis", {{"stiffness", 3.0}, {"yield", yield}}, motion);
       const auto cycle = static_cast<std::size_t>(4.0 * a / kStep);
       const std::size_t last = motion.position.size() - 1;
       EXPECT_NEAR(work(motion, torque, last - cycle, last), 4.0 * 3.0 * yield * (a - yield), 1e-12);
@@ -139,8 +138,8 @@ TEST(PreslidingHysteresis, IsElasticBelowItsYield) {
 
 // A minor loop leaves no trace: after it the torque goes on as if it had not been.
 TEST(PreslidingHysteresis, ClosesMinorLoopsAndForgetsThem) {
-  const Parameters stops = {{"stiffness", 3.0},   {"yield", 0.125}, {"stiffness", 2.0},
-                            {"yield", 0.3}, {"stiffness", 1.0}, {"yield", 0.7}};
+  const Parameters stops = {{"stiffness", 3.0}, {"yield", 0.125},   {"stiffness", 2.0},
+                            {"yield", 0.3},     {"stiffness", 1.0}, {"yield", 0.7}};
   const auto straight = zigzag({0.0, 2.0, -2.0, 0.5, 2.0}, kStep);
   const auto detour = zigzag({0.0, 2.0, -2.0, 0.5, -0.25, 0.25, 0.0, 0.5, 2.0}, kStep);
   const auto without = torque_of("presliding_hysteresis", stops, straight);
@@ -155,8 +154,8 @@ TEST(BoucWen, FollowsDahlsExponentialWhateverTheSampling) {
   constexpr double kSlip = 0.3;
   for (double step : {1.0 / 8.0, 1.0 / 64.0, 1.0 / 512.0}) {
     const auto motion = zigzag({0.0, 1.0, -1.0}, step);
-    const auto torque = torque_of(
-        "bouc_wen", {{"height", 5.0}, {"slip_length", kSlip}, {"exponent", 1.0}}, motion);
+    const auto torque =
+        torque_of("bouc_wen", {{"height", 5.0}, {"slip_length", kSlip}, {"exponent", 1.0}}, motion);
     const auto turn = static_cast<std::size_t>(1.0 / step);
     const double top = 1.0 - std::exp(-1.0 / kSlip);
     for (std::size_t i = 0; i < torque.size(); ++i) {
@@ -171,9 +170,9 @@ TEST(BoucWen, FollowsDahlsExponentialWhateverTheSampling) {
 TEST(BoucWen, NeverExceedsItsHeight) {
   for (double exponent : {0.2, 1.0, 5.0}) {
     const auto motion = harmonic_motion({1.0, 0.7, 0.3}, 37, 3);
-    for (double value : torque_of("bouc_wen",
-                                  {{"height", 5.0}, {"slip_length", 0.01}, {"exponent", exponent}},
-                                  motion)) {
+    for (double value :
+         torque_of("bouc_wen", {{"height", 5.0}, {"slip_length", 0.01}, {"exponent", exponent}},
+                   motion)) {
       EXPECT_LE(std::abs(value), 5.0);
     }
   }
@@ -198,8 +197,7 @@ TEST(SensorDelay, ShiftsTheTorqueInTime) {
   const auto motion = harmonic_motion({1.0}, 2000, 2);
   std::vector<double> torque;
   for (double t : motion.time) torque.push_back(std::sin(9.0 * t));
-  (*find_effect("sensor_delay"))
-      ->apply({"sensor_delay", {{"delay", 0.0123}}}, motion, torque);
+  (*find_effect("sensor_delay"))->apply({"sensor_delay", {{"delay", 0.0123}}}, motion, torque);
   for (std::size_t i = 100; i < torque.size(); ++i) {
     EXPECT_NEAR(torque[i], std::sin(9.0 * (motion.time[i] - 0.0123)), 1e-7);
   }

@@ -64,8 +64,8 @@ TEST(ForwardSensitivity, OfALinearEquationIsItsClosedForm) {
       const double e = std::exp(-a * t);
       const double rest = kB / a;
       EXPECT_NEAR(made->state[i], rest + (kStart - rest) * e, 1e-7);
-      EXPECT_NEAR(made->sensitivity[3 * i],
-                  -rest / a * (1.0 - e) - (kStart - rest) * t * e, 1e-7) << "a, t = " << t;
+      EXPECT_NEAR(made->sensitivity[3 * i], -rest / a * (1.0 - e) - (kStart - rest) * t * e, 1e-7)
+          << "a, t = " << t;
       EXPECT_NEAR(made->sensitivity[3 * i + 1], (1.0 - e) / a, 1e-7) << "b, t = " << t;
       EXPECT_NEAR(made->sensitivity[3 * i + 2], e, 1e-7) << "start, t = " << t;
     }

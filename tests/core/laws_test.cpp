@@ -175,8 +175,8 @@ TEST(BoundedModulation, StaysWithinItsBoundsWhateverItsTerms) {
   std::mt19937_64 engine(3);
   std::normal_distribution<double> normal(0.0, 30.0);
   for (int draw = 0; draw < 50; ++draw) {
-    const auto law = made(law_spec("bounded_modulation", 0.5, {},
-                                   {normal(engine), normal(engine), normal(engine)}));
+    const auto law = made(
+        law_spec("bounded_modulation", 0.5, {}, {normal(engine), normal(engine), normal(engine)}));
     for (double x = -50.0; x <= 50.0; x += 0.37) {
       EXPECT_GE(law->value(x), std::exp(-1.5) * (1.0 - 1e-12));
       EXPECT_LE(law->value(x), std::exp(1.5) * (1.0 + 1e-12));

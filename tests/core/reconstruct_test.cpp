@@ -10,8 +10,8 @@ namespace {
 
 double law(double x, double v) { return 5.0 * x + 0.4 * x * x * x + 0.1 * v; }
 
-double rms_difference(const std::vector<double>& a, const std::vector<double>& b,
-                      std::size_t from, std::size_t to) {
+double rms_difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t from,
+                      std::size_t to) {
   double sum = 0.0;
   for (std::size_t i = from; i < to; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
   return std::sqrt(sum / static_cast<double>(to - from));
@@ -42,7 +42,8 @@ TEST(Reconstruct, MeasuresTheNoiseOfALoop) {
   }
 }
 
-// Forty harmonics of two short cycles take a fifth of the noise with them; their count gives it back.
+// Forty harmonics of two short cycles take a fifth of the noise with them; their count gives it
+// back.
 TEST(Reconstruct, CountsWhatSmoothingTookOfTheNoise) {
   const auto clean = sine_record(2, 240, law);
   double motion = 0.0;

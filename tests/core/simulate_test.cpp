@@ -121,8 +121,8 @@ TEST(SimulateTorsion, ErrsInProportionToItsTolerance) {
   const auto d = linear_sine(5.0, 1.5, 20000);
   double last = 1.0;
   for (double tolerance : {1e-4, 1e-6, 1e-8}) {
-    const auto torsion = simulate_torsion(linear(5.0, 1.5), d.time, d.torque, 0.0,
-                                          {tolerance, tolerance, 200000});
+    const auto torsion =
+        simulate_torsion(linear(5.0, 1.5), d.time, d.torque, 0.0, {tolerance, tolerance, 200000});
     ASSERT_TRUE(torsion);
     const double error = worst(*torsion, d.torsion);
     EXPECT_LT(error, 100.0 * tolerance);
@@ -170,8 +170,10 @@ TEST(SimulateTorque, IsTheSumOfItsParts) {
   const auto torque = simulate_torque(model, motion);
   ASSERT_TRUE(torque);
   for (std::size_t i = 0; i < torque->size(); ++i) {
-    EXPECT_NEAR((*torque)[i], 5.0 * motion.position[i] + 1.5 * motion.velocity[i] +
-                                  0.1 * motion.acceleration[i] + 0.25, 1e-12);
+    EXPECT_NEAR(
+        (*torque)[i],
+        5.0 * motion.position[i] + 1.5 * motion.velocity[i] + 0.1 * motion.acceleration[i] + 0.25,
+        1e-12);
   }
 }
 
@@ -199,7 +201,9 @@ TEST(SimulateTorque, RefusesWhatItCannotMake) {
   };
   EXPECT_THAT(refusal([](ModelSpec& m) { m.h.law = "k"; }), HasSubstr("'k'"));
   EXPECT_THAT(refusal([](ModelSpec& m) { m.effects = {{"drift", {}}}; }), HasSubstr("'drift'"));
-  EXPECT_THAT(refusal([](ModelSpec& m) { m.effects = {{"inertia_torque", {}}}; }),
+  EXPECT_THAT(refusal([](ModelSpec& m) {
+                m.effects = {{"inertia_torque", {}}};
+              }),
               HasSubstr("inertia_torque has 0 parameters"));
   EXPECT_THAT(refusal([](ModelSpec& m) {
                 m.effects = {{"presliding_hysteresis", {{"stiffness", 1.0}}}};

@@ -78,8 +78,8 @@ TEST(IntegratedBasis, WithoutKnotsIsThatOfBernstein) {
   const IntegratedBasis basis({});
   for (double u : {0.0, 0.2, 0.9, 1.0}) {
     const double v = 1.0 - u;
-    EXPECT_THAT(slopes(basis, u), testing::Pointwise(testing::DoubleNear(1e-14),
-                                                     {v * v, 2.0 * u * v, u * u}));
+    EXPECT_THAT(slopes(basis, u),
+                testing::Pointwise(testing::DoubleNear(1e-14), {v * v, 2.0 * u * v, u * u}));
   }
 }
 

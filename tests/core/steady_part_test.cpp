@@ -37,7 +37,8 @@ TEST(SteadyPart, BeginsAfterTheRunUp) {
 TEST(SteadyPart, IsAbsentWithoutTwoCyclesOrRepetition) {
   EXPECT_FALSE(find_steady_part(sine_record(1.5, 200, ellipse)));
   auto growing = sine_record(4, 200, ellipse);
-  for (std::size_t i = 0; i < growing.time.size(); ++i) growing.motion[i] *= std::exp(growing.time[i]);
+  for (std::size_t i = 0; i < growing.time.size(); ++i)
+    growing.motion[i] *= std::exp(growing.time[i]);
   EXPECT_FALSE(find_steady_part(growing));
   auto stuck = sine_record(4, 200, ellipse);
   for (double& x : stuck.motion) x = 0.001;

@@ -1,4 +1,5 @@
-// How often 95 % intervals of f, g^-1 and h hold the truth, over seeded replicates of one experiment.
+// How often 95 % intervals of f, g^-1 and h hold the truth, over seeded replicates of one
+// experiment.
 #include <gtest/gtest.h>
 
 #include "gears.hpp"
@@ -19,8 +20,7 @@ void count(const FunctionBand& band, const std::function<double(double)>& truth,
   for (double u : {0.15, 0.35, 0.55, 0.75, 0.95}) {
     std::size_t nearest = 0;
     for (std::size_t k = 0; k < band.argument.size(); ++k) {
-      if (std::abs(band.argument[k] - u * range) <
-          std::abs(band.argument[nearest] - u * range)) {
+      if (std::abs(band.argument[k] - u * range) < std::abs(band.argument[nearest] - u * range)) {
         nearest = k;
       }
     }

@@ -130,7 +130,8 @@ inline Result<Estimate> fitted(std::string_view method, std::vector<TorsionRecor
   return (*row)->fit({.records = std::move(records), .options = std::move(options)});
 }
 
-/// Largest difference of a law from the truth over [-range, range], in units of the truth's largest.
+/// Largest difference of a law from the truth over [-range, range], in units of the truth's
+/// largest.
 inline double worst_error(const LawSpec& spec, const std::function<double(double)>& truth,
                           double range) {
   const auto law = make_law(spec);

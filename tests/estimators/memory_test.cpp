@@ -13,7 +13,9 @@ constexpr double kStops[][2] = {{1.5, 0.07}, {2.2, 0.25}, {1.1, 0.55}};  // Nm/r
 /// A cubic spring beside three slip elements whose yields are on nobody's grid.
 TorsionRecord slipping(double amplitude, double frequency) {
   auto record = measured({.f = smooth_gear().f, .g_inverse = [](double) { return 0.0; }},
-                         {.amplitude = amplitude, .frequency = frequency, .noise = 1e-3,
+                         {.amplitude = amplitude,
+                          .frequency = frequency,
+                          .noise = 1e-3,
                           .seed = static_cast<unsigned>(100.0 * amplitude)});
   for (const auto& [stiffness, yield] : kStops) {
     StopOperator stop(yield);
@@ -40,8 +42,8 @@ double misfit(const ModelSpec& model, const TorsionRecord& record) {
 }
 
 TEST(PreslidingFit, PredictsLoopsOfOtherAmplitudesAndFrequencies) {
-  const auto estimate = fitted("presliding_nnls", {slipping(1.0, 1.0), slipping(0.7, 1.0),
-                                                   slipping(0.4, 1.0)});
+  const auto estimate =
+      fitted("presliding_nnls", {slipping(1.0, 1.0), slipping(0.7, 1.0), slipping(0.4, 1.0)});
   ASSERT_TRUE(estimate) << estimate.error().message();
   for (double amplitude : {0.5, 0.85, 1.0}) {
     for (double frequency : {0.5, 2.0}) {
@@ -69,8 +71,8 @@ TEST(BoucWenFit, FindsItsOwnParameters) {
       .f = {.law = "odd_polynomial", .scale = kAmplitude, .knots = {}, .coefficients = {5.0, 8.0}},
       .g_inverse = {.law = "odd_polynomial", .scale = kSpeed, .knots = {}, .coefficients = {0.0}},
       .h = {.law = "bounded_modulation", .scale = kAmplitude, .knots = {}, .coefficients = {}},
-      .effects = {{"bouc_wen",
-                   {{"height", 4.0}, {"slip_length", 0.3 * kAmplitude}, {"exponent", 1.4}}}}};
+      .effects = {
+          {"bouc_wen", {{"height", 4.0}, {"slip_length", 0.3 * kAmplitude}, {"exponent", 1.4}}}}};
   std::vector<TorsionRecord> records;
   for (double amplitude : {1.0, 0.5}) {
     auto record = measured(smooth_gear(), {.amplitude = amplitude});
@@ -84,12 +86,13 @@ TEST(BoucWenFit, FindsItsOwnParameters) {
   EXPECT_NEAR(found[0].second / 4.0, 1.0, 1e-3);
   EXPECT_NEAR(found[1].second / (0.3 * kAmplitude), 1.0, 1e-3);
   EXPECT_NEAR(found[2].second / 1.4, 1.0, 2e-3);
-  EXPECT_LT(worst_error(estimate->model.f,
-                        [](double phi) {
-                          const double x = phi / kAmplitude;
-                          return 5.0 * x + 8.0 * x * x * x;
-                        },
-                        kAmplitude),
+  EXPECT_LT(worst_error(
+                estimate->model.f,
+                [](double phi) {
+                  const double x = phi / kAmplitude;
+                  return 5.0 * x + 8.0 * x * x * x;
+                },
+                kAmplitude),
             1e-3);
 }
 

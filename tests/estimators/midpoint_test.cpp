@@ -49,10 +49,9 @@ TEST(Midpoint, TakesAnEvenModulationForDamping) {
 }
 
 TEST(Midpoint, FitsTheWidestOfSeveralLoops) {
-  const auto estimate =
-      fitted("midpoint_polynomial", {measured(table_i(), {.amplitude = 0.5}),
-                                     measured(table_i(), {.amplitude = 1.0}),
-                                     measured(table_i(), {.amplitude = 0.7})});
+  const auto estimate = fitted("midpoint_polynomial", {measured(table_i(), {.amplitude = 0.5}),
+                                                       measured(table_i(), {.amplitude = 1.0}),
+                                                       measured(table_i(), {.amplitude = 0.7})});
   ASSERT_TRUE(estimate);
   ASSERT_EQ(estimate->fits.size(), 1U);
   EXPECT_THAT(estimate->fits.front().id, HasSubstr("a1.0"));
@@ -85,8 +84,9 @@ TEST(Midpoint, RefusesWhatHasNoLoopOrIsNoSine) {
   for (std::string_view method : {"midpoint_polynomial", "midpoint_pooled"}) {
     EXPECT_THAT(refusal(fitted(method, {growing})), HasSubstr("growing does not repeat")) << method;
     // 74 %: 1/(1 + 0.36) of the variance is the sine's.
-    EXPECT_THAT(refusal(fitted(method, {squarish})),
-                AllOf(HasSubstr("a sine explains 7"), HasSubstr("of the motion of recording squarish")));
+    EXPECT_THAT(
+        refusal(fitted(method, {squarish})),
+        AllOf(HasSubstr("a sine explains 7"), HasSubstr("of the motion of recording squarish")));
   }
 }
 

@@ -3,9 +3,9 @@
 #include <limits>
 #include <random>
 
-#include <Eigen/Dense>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "solvers/least_squares.hpp"
 #include "solvers/nonnegative.hpp"
@@ -26,8 +26,7 @@ Random random_problem(unsigned seed, Eigen::Index rows, Eigen::Index columns) {
   std::normal_distribution<double> normal;
   const auto draw = [&] { return normal(engine); };
   Random r{Eigen::MatrixXd::NullaryExpr(rows, columns, draw),
-           Eigen::VectorXd::NullaryExpr(rows, draw),
-           Eigen::VectorXd::NullaryExpr(columns, draw)};
+           Eigen::VectorXd::NullaryExpr(rows, draw), Eigen::VectorXd::NullaryExpr(columns, draw)};
   for (Eigen::Index k = 0; k < columns; k += 4) r.lower[k] = -kInfinity;
   return r;
 }
@@ -85,11 +84,12 @@ class Rosenbrock final : public LeastSquaresProblem {
   }
 };
 
-constexpr SolverSettings kPatient{.max_iterations = 200, .function_tolerance = 1e-14,
-                                  .parameter_tolerance = 1e-14};
+constexpr SolverSettings kPatient{
+    .max_iterations = 200, .function_tolerance = 1e-14, .parameter_tolerance = 1e-14};
 
 std::vector<BoundedParameter> from_the_valleys_far_end(double upper) {
-  return {{.start = -1.2, .lower = -10.0, .upper = upper}, {.start = 1.0, .lower = -10.0, .upper = 10.0}};
+  return {{.start = -1.2, .lower = -10.0, .upper = upper},
+          {.start = 1.0, .lower = -10.0, .upper = 10.0}};
 }
 
 TEST(Minimise, FindsTheBottomOfRosenbrocksValley) {

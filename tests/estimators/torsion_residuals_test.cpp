@@ -1,8 +1,8 @@
 // Jacobians of both residuals against differences, and the whitening of the torsion's.
 #include <random>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "gears.hpp"
 #include "torsion/start.hpp"
@@ -28,11 +28,13 @@ Setting with_every_term() {
   for (auto& one : measurements) one.valid.front() = false;
   auto records = prepare(measurements, 100000).value();
   auto start = richest_start(records, {.offset = true, .zeros = true}).value();
-  start = with_terms(start, {.h = 3, .inertia = true, .delay = true, .offset = true, .zeros = true,
-                             .initial = true});
+  start = with_terms(
+      start,
+      {.h = 3, .inertia = true, .delay = true, .offset = true, .zeros = true, .initial = true});
   auto& p = start.p;
   const auto& layout = start.layout;
-  for (std::size_t k = 0; k < 3; ++k) p[layout.h_group.first + k] = 0.1 + 0.05 * static_cast<double>(k);
+  for (std::size_t k = 0; k < 3; ++k)
+    p[layout.h_group.first + k] = 0.1 + 0.05 * static_cast<double>(k);
   p[layout.inertia_group.first] = 0.02 * kPeak / kAmplitude;
   p[layout.delay_group.first] = 0.21;
   p[layout.offset_group.first] = 0.1;
@@ -70,9 +72,9 @@ std::vector<double> column_errors(const LeastSquaresProblem& problem,
   std::vector<double> errors;
   for (std::size_t k = 0; k < p.size(); ++k) {
     const double h = step * parameters[k].scale;
-    const Eigen::VectorXd difference = (4.0 * central_difference(problem, p, k, h) -
-                                        central_difference(problem, p, k, 2.0 * h)) /
-                                       3.0;
+    const Eigen::VectorXd difference =
+        (4.0 * central_difference(problem, p, k, h) - central_difference(problem, p, k, 2.0 * h)) /
+        3.0;
     const Eigen::VectorXd own = at.jacobian.col(static_cast<Eigen::Index>(k));
     errors.push_back((own - difference).cwiseAbs().maxCoeff() /
                      (difference.cwiseAbs().maxCoeff() + 1e-300));
@@ -133,7 +135,9 @@ Deviation driven_by_noise(unsigned seed) {
   Deviation d{.record = prepare({measured(smooth_gear(), {.cycles = 8, .per_cycle = 500})}, 100000)
                             .value()
                             .front(),
-              .decay = {}, .gain = {}, .residual = {}};
+              .decay = {},
+              .gain = {},
+              .residual = {}};
   auto& one = d.record;
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "uncertainty/covariance.hpp"
 #include "uncertainty/identifiability.hpp"

@@ -26,7 +26,7 @@ class Law {
 struct LawRow {
   std::string_view id;
   std::string_view equation;
-  std::string_view range;   ///< where it holds, and what it does beyond
+  std::string_view range;  ///< where it holds, and what it does beyond
   std::string_view source;
   Result<std::unique_ptr<Law>> (*make)(const LawSpec&);
 };

@@ -8,9 +8,9 @@ namespace flexspline {
 
 /// A law f, g^-1 or h as plain data: which class, at what scale, with which numbers. SI units.
 struct LawSpec {
-  std::string law;                   ///< id in the catalogue of laws
-  double scale = 1.0;                ///< argument that maps to 1: range of the data it was fitted on
-  std::vector<double> knots;         ///< interior knots on (0, 1) or (-1, 1), where the class has any
+  std::string law;            ///< id in the catalogue of laws
+  double scale = 1.0;         ///< argument that maps to 1: range of the data it was fitted on
+  std::vector<double> knots;  ///< interior knots on (0, 1) or (-1, 1), where the class has any
   std::vector<double> coefficients;  ///< in the law's own order
   double valid_to = 0.0;             ///< |argument| up to which recordings support it; 0: unknown
 };

@@ -99,9 +99,9 @@ struct TorsionRecord {
   std::vector<double> time;
   std::vector<double> motion;
   std::vector<double> effort;
-  std::vector<bool> valid;   ///< false: carries the state along, has no residual
-  bool travels = false;      ///< an angle that travels: f need be neither odd nor monotone
-  bool linear = false;       ///< a displacement in metres under a force in newtons
+  std::vector<bool> valid;  ///< false: carries the state along, has no residual
+  bool travels = false;     ///< an angle that travels: f need be neither odd nor monotone
+  bool linear = false;      ///< a displacement in metres under a force in newtons
 };
 
 }  // namespace flexspline

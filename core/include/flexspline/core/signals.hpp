@@ -28,9 +28,9 @@ SineFit fit_sine(std::span<const double> time, std::span<const double> signal,
 
 /// The part of a record in which motion and effort repeat from cycle to cycle.
 struct SteadyPart {
-  double period = 0.0;     ///< s
-  std::size_t first = 0;   ///< index of the first sample
-  std::size_t last = 0;    ///< one past the last
+  double period = 0.0;    ///< s
+  std::size_t first = 0;  ///< index of the first sample
+  std::size_t last = 0;   ///< one past the last
   int cycles = 0;
 };
 
@@ -40,10 +40,10 @@ std::optional<SteadyPart> find_steady_part(const TorsionRecord& record);
 /// What a noisy record says of the smooth signals behind it. On the steady part a Fourier series
 /// whose order is chosen by an information criterion, elsewhere a penalised spline.
 struct Reconstruction {
-  Motion motion;                ///< position, velocity, acceleration at the record's instants
+  Motion motion;  ///< position, velocity, acceleration at the record's instants
   std::vector<double> effort;
   std::optional<SteadyPart> steady;
-  double motion_noise = 0.0;    ///< standard deviation, degrees of freedom of the smoothing counted
+  double motion_noise = 0.0;  ///< standard deviation, degrees of freedom of the smoothing counted
   double effort_noise = 0.0;
   std::vector<double> motion_error;  ///< standard error of the reconstructed position
 };

@@ -31,7 +31,8 @@ struct Unit {
   double offset;
 };
 
-/// Every unit that files may use, e.g. deg, rad, arcmin, rev, rad/s, deg/s, rpm, Nm, mNm, kNm, s, ms.
+/// Every unit that files may use, e.g. deg, rad, arcmin, rev, rad/s, deg/s, rpm, Nm, mNm, kNm, s,
+/// ms.
 std::span<const Unit> units();
 
 /// The unit with exactly this symbol.
@@ -44,6 +45,8 @@ std::string_view name_of(Dimension dimension);
 std::string symbols_of(Dimension dimension);
 
 inline double to_si(const Unit& unit, double value) { return unit.factor * value + unit.offset; }
-inline double from_si(const Unit& unit, double value) { return (value - unit.offset) / unit.factor; }
+inline double from_si(const Unit& unit, double value) {
+  return (value - unit.offset) / unit.factor;
+}
 
 }  // namespace flexspline

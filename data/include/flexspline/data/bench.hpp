@@ -17,12 +17,12 @@ namespace flexspline::data {
 /// The truth behind a virtual recording: the paper's locked-rotor bench, with physics of its own
 /// that no estimator shares. Arguments and values in SI (rad, rad/s, Nm).
 struct BenchTruth {
-  std::function<double(double)> stiffness;      ///< f(phi)
-  std::function<double(double)> damping;        ///< g^-1(phi'/h)
-  std::function<double(double)> log_modulation; ///< ln h(phi); ln h(0) = 0
+  std::function<double(double)> stiffness;               ///< f(phi)
+  std::function<double(double)> damping;                 ///< g^-1(phi'/h)
+  std::function<double(double)> log_modulation;          ///< ln h(phi); ln h(0) = 0
   std::vector<std::pair<double, double>> slip_elements;  ///< Maxwell: stiffness Nm/rad, yield rad
-  double inertia = 0.0;                         ///< Nm s2/rad, beyond the model
-  double sensor_lag_s = 0.0;                    ///< torque is late against the angle
+  double inertia = 0.0;                                  ///< Nm s2/rad, beyond the model
+  double sensor_lag_s = 0.0;                             ///< torque is late against the angle
   /// Order k, (share, phase in rad): share cos(k (2 pi f t - pi/2) + phase) beside sin(2 pi f t).
   std::vector<std::pair<int, std::pair<double, double>>> harmonics;
 };
@@ -49,26 +49,26 @@ double slip_fit_misfit_percent();
 /// A sine held by the position loop, started from rest: phi = A r(t) sin(2 pi f t), r a smooth ramp
 /// over the first half cycle. Every later cycle repeats exactly, slip elements included.
 struct BenchExcitation {
-  double amplitude = 0.0;     ///< rad at the output
+  double amplitude = 0.0;  ///< rad at the output
   double frequency_hz = 0.0;
-  int cycles = 5;             ///< the first of them runs up from rest
+  int cycles = 5;  ///< the first of them runs up from rest
   int samples_per_cycle = 500;
 };
 
 /// How the bench measures.
 struct BenchSensors {
-  double encoder_step = 0.0;         ///< rad at the motor shaft; 0: not quantised
-  double angle_noise = 0.0;          ///< rms, share of the paper's amplitude (0.2 deg)
-  double torque_noise_white = 0.0;   ///< rms, share of the paper's peak torque
-  double torque_noise_coloured = 0.0;///< rms of a first-order process, share of the same
-  double torque_noise_samples = 20;  ///< its correlation, in samples
+  double encoder_step = 0.0;           ///< rad at the motor shaft; 0: not quantised
+  double angle_noise = 0.0;            ///< rms, share of the paper's amplitude (0.2 deg)
+  double torque_noise_white = 0.0;     ///< rms, share of the paper's peak torque
+  double torque_noise_coloured = 0.0;  ///< rms of a first-order process, share of the same
+  double torque_noise_samples = 20;    ///< its correlation, in samples
 };
 
 /// A virtual recording with what only the bench knows.
 struct BenchRecording {
   Recording measured;
-  Motion motion;                     ///< true phi, phi', phi''
-  std::vector<double> torque;        ///< true transmitted torque as an ideal sensor would show it
+  Motion motion;               ///< true phi, phi', phi''
+  std::vector<double> torque;  ///< true transmitted torque as an ideal sensor would show it
 };
 
 /// Makes one recording. The seed is counter-based: the same (seed, id) gives the same bytes in any

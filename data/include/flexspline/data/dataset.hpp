@@ -13,9 +13,9 @@ namespace flexspline::data {
 /// One thing that is wrong with (or worth knowing of) a file.
 struct Finding {
   std::string file;
-  int line = 0;        ///< 1-based; 0: the file as a whole
+  int line = 0;  ///< 1-based; 0: the file as a whole
   int column = 0;
-  std::string problem; ///< names the key, column or value
+  std::string problem;  ///< names the key, column or value
   std::string remedy;
 
   /// "file:line:column: problem; remedy".
@@ -26,7 +26,7 @@ struct Finding {
 struct DatasetReading {
   std::optional<RecordingSet> set;  ///< present only when there are no errors
   std::vector<Finding> errors;
-  std::vector<Finding> notes;       ///< e.g. columns that were ignored
+  std::vector<Finding> notes;  ///< e.g. columns that were ignored
 };
 
 /// Reads a data set of format "flexspline-dataset/1": folder with dataset.toml and CSV tables.

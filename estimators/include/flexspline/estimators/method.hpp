@@ -16,10 +16,11 @@ namespace flexspline::estimators {
 struct OptionInfo {
   std::string_view name;
   std::string_view meaning;
-  double value = 0.0;                       ///< default of a number
-  double lower = 0.0;                       ///< smallest and largest admissible number
+  double value = 0.0;  ///< default of a number
+  double lower = 0.0;  ///< smallest and largest admissible number
   double upper = 0.0;
-  std::vector<std::string_view> choices{};  ///< admissible words, the default first; empty: a number
+  std::vector<std::string_view>
+      choices{};  ///< admissible words, the default first; empty: a number
 };
 
 /// Options as given; a method takes its default for what is absent.
