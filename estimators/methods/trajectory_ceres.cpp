@@ -95,7 +95,7 @@ Result<Estimate> fit(const FitProblem& problem) {
   const bool travels = records->front().record.travels;
   const AllowedTerms allowed{.h = !travels && word(problem, method, "h") == "auto",
                              .inertia = !travels && word(problem, method, "inertia") == "auto",
-                             .delay = !travels && word(problem, method, "delay") == "auto"};
+                             .delay = word(problem, method, "delay") == "auto"};
   const FreeTerms base = base_terms(*records);
   const auto richest = richest_start(*records, base);
   if (!richest) return tl::unexpected(richest.error());
@@ -104,7 +104,8 @@ Result<Estimate> fit(const FitProblem& problem) {
   }
   auto decision = decide_terms(*richest, *records, base, allowed);
   if (!decision) return tl::unexpected(decision.error());
-  const auto start = chosen_start(*records, base, *richest, decision->free);
+  if (travels) decision->says = "h = 1: over a motion that travels it would be a second f";
+  auto start = chosen_start(*records, base, *richest, decision->free);
   if (!start) return tl::unexpected(start.error());
 
   const SolverSettings settings{.max_iterations =
@@ -116,6 +117,8 @@ Result<Estimate> fit(const FitProblem& problem) {
   if (misses) {
     decision->notes.push_back(misfit_note(left));
     add_misfit(*records, left);
+    start = chosen_start(*records, base, *richest, decision->free);
+    if (!start) return tl::unexpected(start.error());
     result = fit_torque(with_terms(*start, decision->free), *records, settings);
   }
   if (result && direction_of(problem, method, misses) == Direction::torsion) {

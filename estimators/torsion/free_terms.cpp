@@ -108,7 +108,10 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   decision.free.h = allowed.h && tells ? kModulationTerms : 0;
   decision.verdict = tells ? "identifiable" : "not_identifiable";
   decision.says = says_of(decision.log_h_std, cosine, records.size(), tells);
-  if (!allowed.h) decision.notes.push_back("h = 1 was asked for");
+  if (!allowed.h) {
+    decision.verdict = "not_asked";
+    decision.says = "h = 1 was set, so nothing is said of it";
+  }
 
   const Ranges ranges = ranges_of(records, base.zeros);
   const std::vector<Candidate> candidates = {{"inertia", layout.inertia_group, ranges.acceleration},

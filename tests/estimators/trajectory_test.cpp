@@ -70,7 +70,7 @@ TEST(Trajectory, KeepsHAtOneWhenAsked) {
                                {.numbers = {}, .words = {{"h", "unity"}}});
   ASSERT_TRUE(estimate);
   EXPECT_TRUE(estimate->model.h.coefficients.empty());
-  EXPECT_THAT(estimate->notes, Contains(HasSubstr("h = 1 was asked for")));
+  EXPECT_THAT(estimate->identifiability.says, HasSubstr("h = 1 was set"));
 }
 
 // 5 % of the peak at the largest amplitude and frequency.

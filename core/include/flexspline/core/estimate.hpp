@@ -38,8 +38,9 @@ struct Absorbed {
 struct Identifiability {
   double condition = kNotComputed;  ///< of the column-scaled Jacobian
   std::vector<Absorbed> absorbed;
-  std::string verdict = "not_computed";  ///< identifiable | weak | not_identifiable | not_computed
-  std::string says;                      ///< the verdict in a sentence, with its reason
+  std::string verdict =
+      "not_computed";  ///< identifiable | weak | not_identifiable | not_asked | not_computed
+  std::string says;    ///< the verdict in a sentence, with its reason
 };
 
 /// One estimated function with its pointwise 95 % band.
