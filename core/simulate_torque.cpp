@@ -1,27 +1,19 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-
+#include "flexspline/core/effect_path.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/simulate.hpp"
 
 namespace flexspline {
 namespace {
 
-Result<void> apply_effects(const ModelSpec& model, const Motion& motion,
-                           std::span<double> torque, bool on_instrument) {
+Result<void> apply_effects(const ModelSpec& model, std::span<const Instant<double>> path,
+                           std::span<double> torque, bool instrument) {
   for (const EffectSpec& spec : model.effects) {
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
-    if ((*row)->on_instrument != on_instrument) continue;
-    const std::size_t group = (*row)->parameters.size();
-    const std::size_t given = spec.parameters.size();
-    if ((*row)->repeats ? given % group != 0 : given != group) {
-      return failure(ErrorCode::bad_data,
-                     fmt::format("effect {} has {} parameters", spec.effect, given),
-                     fmt::format("it takes {}{}", group, (*row)->repeats ? " an element" : ""));
-    }
-    (*row)->apply(spec, motion, torque);
+    if (on_instrument((*row)->site) != instrument) continue;
+    if (auto done = apply_along(**row, spec, path, torque); !done) return done;
   }
   return {};
 }
@@ -40,11 +32,12 @@ Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion
     const double phi = motion.position[i];
     torque[i] = (*f)->value(phi) + (*g_inverse)->value(motion.velocity[i] / (*h)->value(phi));
   }
-  if (auto done = apply_effects(model, motion, torque, false); !done) {
-    return tl::unexpected(done.error());
-  }
-  if (auto done = apply_effects(model, motion, torque, true); !done) {
-    return tl::unexpected(done.error());
+  auto path = instants_of(motion);
+  for (bool instrument : {false, true}) {
+    set_torque(path, torque);
+    if (auto done = apply_effects(model, path, torque, instrument); !done) {
+      return tl::unexpected(done.error());
+    }
   }
   return torque;
 }
