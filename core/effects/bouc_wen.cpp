@@ -21,11 +21,12 @@ struct BoucWen {
     return S((real_part(along) < 0.0 ? S(1.0 + power) : S(1.0 - power)) / p[1]);
   }
 
-  // Steps of at most a twentieth of the slip length, so that the sampling does not matter.
+  // Steps of at most a twentieth of the slip length, so that the sampling does not matter. What lies
+  // before the last 500 slip lengths is forgotten at every exponent, and left out.
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    const S dx(to.torsion - from.torsion);
+    const S dx(limited(S(to.torsion - from.torsion), S(500.0 * p[1])));
     const double direction = real_part(dx) < 0.0 ? -1.0 : 1.0;
     const double ratio = 20.0 * std::abs(real_part(dx)) / real_part(p[1]);
     const int steps = static_cast<int>(std::clamp(std::ceil(ratio), 1.0, 1e4));

@@ -24,11 +24,7 @@ struct MaxwellSlip {
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
     for (std::size_t k = 0; k < z.size(); ++k) {
-      const double s = real_part(z[k]);
-      const double yield = real_part(p[2 * k + 1]);
-      const double v = real_part(x.torsion_rate);
-      const bool slips = (s >= yield && v > 0.0) || (s <= -yield && v < 0.0);
-      dz[k] = slips ? S(0.0) : x.torsion_rate;
+      dz[k] = stop_rate(z[k], x.torsion_rate, p[2 * k + 1]);
     }
   }
 };

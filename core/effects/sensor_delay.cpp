@@ -1,7 +1,5 @@
-#include <vector>
-
+#include "delayed.hpp"
 #include "flexspline/core/effect.hpp"
-#include "flexspline/core/spline.hpp"
 
 namespace flexspline {
 namespace {
@@ -16,10 +14,7 @@ struct SensorDelay {
 
 void map(std::span<const double> time, std::span<double> signal,
          std::span<const double> parameters) {
-  const double delay = parameters[0];
-  if (delay == 0.0) return;
-  const Spline sampled(time, signal);
-  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = sampled.value(time[i] - delay);
+  delay_signal(time, signal, parameters[0]);
 }
 
 }  // namespace
@@ -33,7 +28,8 @@ EffectRow describe_sensor_delay() {
                 .not_modelled = "filters whose delay depends on frequency",
                 .source = "anti-alias filters and bus cycles: 0.5 to 5 ms",
                 .parameters = {{"delay", "s", -10.0, 10.0, 1e-3, "anti-alias filters"}},
-                .rigs = {Rig::locked, Rig::free, Rig::specimen}};
+                .rigs = {Rig::locked, Rig::free, Rig::specimen},
+                .passive = false};
   instantiate<SensorDelay>(row);
   row.map = map;
   return row;

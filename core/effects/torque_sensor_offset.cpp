@@ -21,7 +21,8 @@ EffectRow describe_torque_sensor_offset() {
                 .not_modelled = "drift of the offset",
                 .source = "data sheets of torque sensors: 0.1 to 0.5 % of full scale",
                 .parameters = {{"offset", "Nm", -1e6, 1e6, 0.5, "0.2 % of 226 Nm"}},
-                .rigs = {Rig::locked, Rig::free, Rig::specimen}};
+                .rigs = {Rig::locked, Rig::free, Rig::specimen},
+                .rate_independent = true};
   instantiate<TorqueSensorOffset>(row);
   return row;
 }

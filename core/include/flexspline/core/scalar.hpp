@@ -60,4 +60,46 @@ S limited(const S& x, const S& bound) {
   return x;
 }
 
+/// (1 - exp(-x)) / x for x >= 0, 1 at 0: mean of a decay over x time constants.
+template <class S>
+S mean_decay(const S& x) {
+  using std::exp;
+  if (real_part(x) > 1e-3) return S(S(1.0 - S(exp(S(-x)))) / x);
+  const S inner(1.0 - S(S(x / 4.0) * S(1.0 - S(x / 5.0))));
+  return S(1.0 - S(S(x / 2.0) * S(1.0 - S(S(x / 3.0) * inner))));
+}
+
+/// Rate of a stop operator (elastic, perfectly plastic): that of its input unless it yields.
+template <class S>
+S stop_rate(const S& stop, const S& input_rate, const S& yield) {
+  const double along = real_part(input_rate) < 0.0 ? -real_part(stop) : real_part(stop);
+  return along >= real_part(yield) && real_part(input_rate) != 0.0 ? S(0.0) : input_rate;
+}
+
+/// A step from 0 to 1 that is smooth over `width`: (1 + x / sqrt(x^2 + width^2)) / 2, exact in both
+/// tails; 1 % off at 5 widths.
+template <class S>
+S smooth_step(const S& x, const S& width) {
+  using std::sqrt;
+  const S root(sqrt(S(x * x + width * width)));
+  if (real_part(x) < 0.0) return S(S(width * width) / S(S(2.0 * root) * S(root - x)));
+  return S(S(root + x) / S(2.0 * root));
+}
+
+/// exp(-(x / width)^2): the share of a Stribeck peak that is left at speed x.
+template <class S>
+S bell(const S& x, const S& width) {
+  using std::exp;
+  const S ratio(x / width);
+  return S(exp(S(-ratio * ratio)));
+}
+
+/// 1 - exp(-x) for x >= 0, to rounding at small x too: the share of a relaxation done.
+template <class S>
+S relaxed(const S& x) {
+  using std::tanh;
+  const S half(tanh(S(0.5 * x)));
+  return S(S(2.0 * half) / S(1.0 + half));
+}
+
 }  // namespace flexspline
