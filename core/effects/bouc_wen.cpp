@@ -21,8 +21,8 @@ struct BoucWen {
     return S((real_part(along) < 0.0 ? S(1.0 + power) : S(1.0 - power)) / p[1]);
   }
 
-  // Steps of at most a twentieth of the slip length, so that the sampling does not matter. What lies
-  // before the last 500 slip lengths is forgotten at every exponent, and left out.
+  // Steps of at most a twentieth of the slip length, so that the sampling does not matter. What
+  // lies before the last 500 slip lengths is forgotten at every exponent, and left out.
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {

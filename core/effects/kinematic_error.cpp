@@ -19,8 +19,9 @@ EffectRow describe_kinematic_error() {
       .coordinate = "motor_angle",
       .site = Site::kinematics,
       .equation = "phi = theta_m/N - theta_l + sum_k e_k sin(k theta_m + p_k)",
-      .range = "orders of the wave generator: 2 (lobes on the circular spline), 4, 1 "
-               "(eccentricity) and 2 (1 + 1/N) = 2.04 at ratio 50 (lobes on the flexspline)",
+      .range =
+          "orders of the wave generator: 2 (lobes on the circular spline), 4, 1 "
+          "(eccentricity) and 2 (1 + 1/N) = 2.04 at ratio 50 (lobes on the flexspline)",
       .not_modelled = "amplitudes that depend on load; work over a closed path of one angle alone",
       .source = "Ghorbel, Gandhi, Alpeter, J. Mech. Des. 123(1), 2001; Jia et al., MMT 155, 2021",
       .parameters = {{"amplitude", "rad", 0.0, 0.1, 1.5e-4,

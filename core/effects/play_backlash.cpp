@@ -6,7 +6,8 @@ namespace flexspline {
 namespace {
 
 // The state is the part of the torque that friction in the joint carries: a stop operator, so that
-// tau - s is the play operator. Driven by the torque, not by the torsion, as only that loses energy.
+// tau - s is the play operator. Driven by the torque, not by the torsion, as only that loses
+// energy.
 struct PlayBacklash {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {

@@ -17,7 +17,8 @@ EffectRow describe_series_compliance() {
       .id = "series_compliance",
       .coordinate = "torsion",
       .site = Site::kinematics,
-      .equation = "phi_e = phi - c tau: the law sees the torsion without that of sensor and fixture",
+      .equation =
+          "phi_e = phi - c tau: the law sees the torsion without that of sensor and fixture",
       .range = "below the resonance of the sensor with what it carries",
       .not_modelled = "mass and damping of what yields; a compliance on one side only",
       .source = "two springs in series: 1/K = 1/K_gear + c; torsion bars of torque sensors",

@@ -37,20 +37,21 @@ struct ViscoelasticCreep {
 }  // namespace
 
 EffectRow describe_viscoelastic_creep() {
-  EffectRow row{.id = "viscoelastic_creep",
-                .coordinate = "lag",
-                .site = Site::transmission,
-                .equation = "tau += sum_i k_i s_i, s_i' = phi' - s_i/T_i (Maxwell branches)",
-                .range = "small strains; time constants between the sampling and the recording",
-                .not_modelled = "creep that is not linear in the load; dependence on temperature",
-                .source = "Maxwell (1867); Flügge, Viscoelasticity (1975): branches beside a spring",
-                .parameters = {{"stiffness", "Nm/rad", 0.0, 1e7, 4500.0,
-                                "3 % of K1 = 1.5e5 Nm/rad of size 45, ratio 50"},
-                               {"time_constant", "s", 1e-4, 1e5, 10.0,
-                                "engineering judgement: 0.1 to 100 s"}},
-                .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
-                .repeats = true,
-                .states = 1};
+  EffectRow row{
+      .id = "viscoelastic_creep",
+      .coordinate = "lag",
+      .site = Site::transmission,
+      .equation = "tau += sum_i k_i s_i, s_i' = phi' - s_i/T_i (Maxwell branches)",
+      .range = "small strains; time constants between the sampling and the recording",
+      .not_modelled = "creep that is not linear in the load; dependence on temperature",
+      .source = "Maxwell (1867); Flügge, Viscoelasticity (1975): branches beside a spring",
+      .parameters = {{"stiffness", "Nm/rad", 0.0, 1e7, 4500.0,
+                      "3 % of K1 = 1.5e5 Nm/rad of size 45, ratio 50"},
+                     {"time_constant", "s", 1e-4, 1e5, 10.0,
+                      "engineering judgement: 0.1 to 100 s"}},
+      .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
+      .repeats = true,
+      .states = 1};
   instantiate<ViscoelasticCreep>(row);
   return row;
 }
