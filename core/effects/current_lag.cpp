@@ -15,8 +15,8 @@ struct CurrentLag {
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
     const S elapsed(S(to.time - from.time) / p[0]);
-    const S ramp(S(to.motor_torque - from.motor_torque) / elapsed);
-    z[0] += S(S(ramp - z[0]) * relaxed(elapsed));
+    const S change(to.motor_torque - from.motor_torque);
+    z[0] += S(change * mean_left(elapsed) - z[0] * relaxed(elapsed));
   }
 
   template <class S>

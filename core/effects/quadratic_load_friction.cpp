@@ -14,7 +14,8 @@ struct QuadraticLoadFriction {
     const S width(p[4] * p[4]);
     const S loaded(smooth_step(S(x.motor_torque * torque), width));
     const S driving(smooth_step(S(motor - load), width));
-    const S squeeze(p[1] * load * driving + p[0] * motor * S(1.0 - driving));
+    const S driven(smooth_step(S(load - motor), width));
+    const S squeeze(p[1] * load * driving + p[0] * motor * driven);
     return S(loaded * squeeze * bell(x.motor_speed, p[2]) * smooth_sign(x.motor_speed, p[3]));
   }
 };

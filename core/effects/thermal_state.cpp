@@ -36,9 +36,9 @@ struct ThermalState {
                       std::span<S> z) {
     const std::span<const S> state(z);
     const S power(0.5 * S(loss(from, p, state) + loss(to, p, state)));
-    const S elapsed(S(to.time - from.time) * p[kConductance] / p[kCapacity]);
-    const S away(S(power / p[kConductance]) - z[0]);
-    z[0] += S(away * relaxed(elapsed));
+    const S gained(power - p[kConductance] * z[0]);
+    const S step(S(to.time - from.time) / p[kCapacity]);
+    z[0] += S(gained * step * mean_left(S(p[kConductance] * step)));
   }
 
   template <class S>

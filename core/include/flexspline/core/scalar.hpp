@@ -82,8 +82,8 @@ template <class S>
 S smooth_step(const S& x, const S& width) {
   using std::sqrt;
   const S root(sqrt(S(x * x + width * width)));
-  if (real_part(x) < 0.0) return S(S(width * width) / S(S(2.0 * root) * S(root - x)));
-  return S(S(root + x) / S(2.0 * root));
+  const S tail(S(width * width) / S(S(2.0 * root) * S(root + magnitude(x))));
+  return real_part(x) < 0.0 ? tail : S(1.0 - tail);
 }
 
 /// exp(-(x / width)^2): the share of a Stribeck peak that is left at speed x.
@@ -100,6 +100,16 @@ S relaxed(const S& x) {
   using std::tanh;
   const S half(tanh(S(0.5 * x)));
   return S(S(2.0 * half) / S(1.0 + half));
+}
+
+/// (1 - exp(-x)) / x for x >= 0, 1 at 0: the mean over a step of what a relaxation has left. A
+/// polynomial near 0, where the quotient's derivative would cancel.
+template <class S>
+S mean_left(const S& x) {
+  if (std::abs(real_part(x)) > 0.01) return S(relaxed(x) / x);
+  S sum(1.0);
+  for (double n = 7.0; n > 1.0; n -= 1.0) sum = S(1.0 - S(x / n) * sum);
+  return sum;
 }
 
 }  // namespace flexspline
