@@ -98,9 +98,9 @@ Result<std::vector<double>> adjoint_gradient(const OdeSystem& system, std::span<
   if (last > 0 && !p.empty()) {
     SystemDuals duals(system, p);
     Forward problem(duals);
-    CvodesRun forward(problem, settings.stepping, times.front(), initial,
-                      {settings.relative_tolerance, state_tolerances(settings, n),
-                       settings.max_steps});
+    CvodesRun forward(
+        problem, settings.stepping, times.front(), initial,
+        {settings.relative_tolerance, state_tolerances(settings, n), settings.max_steps});
     auto made = descend(forward, duals, times.first(last + 1), weight, settings, p);
     if (!made) return tl::unexpected(made.error());
     sum = std::move(*made);

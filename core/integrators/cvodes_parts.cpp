@@ -2,12 +2,12 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <Eigen/LU>
 #include <cvodes/cvodes.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nvector/nvector_serial.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <Eigen/LU>
 
 #include "integrators/cvodes_run.hpp"
 

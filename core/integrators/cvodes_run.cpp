@@ -73,6 +73,7 @@ void CvodesRun::set_longest_step(double step) { CVodeSetMaxStep(memory(), step);
 
 int CvodesRun::advance(double t) {
   // CVODES counts its limit anew in each call; 0 and less would mean other things to it.
+  if (steps() > max_steps_) return CV_TOO_MUCH_WORK;
   CVodeSetMaxNumSteps(memory(), std::max(1L, max_steps_ - steps()));
   return CVode(memory(), t, state_.get(), &reached_, CV_NORMAL);
 }

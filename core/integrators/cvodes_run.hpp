@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_nvector.h>
+#include <Eigen/Core>
 
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/ode_system.hpp"
@@ -87,8 +87,8 @@ class CvodesRun {
 
  private:
   static int rate(double t, N_Vector z, N_Vector zdot, void* self);
-  static int jacobian(double t, N_Vector z, N_Vector, SUNMatrix out, void* self, N_Vector,
-                      N_Vector, N_Vector);
+  static int jacobian(double t, N_Vector z, N_Vector, SUNMatrix out, void* self, N_Vector, N_Vector,
+                      N_Vector);
   static int root(double t, N_Vector z, double* values, void* self);
   void set_newton();
 

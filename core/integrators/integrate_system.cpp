@@ -39,8 +39,8 @@ void append(SystemTrajectory& out, std::span<const double> z) {
 }
 
 // The same the other way round, behind the states; zero where nothing is given.
-std::vector<double> in_columns(std::span<const double> initial,
-                               std::span<const double> sensitivity, std::size_t directions) {
+std::vector<double> in_columns(std::span<const double> initial, std::span<const double> sensitivity,
+                               std::size_t directions) {
   const std::size_t n = initial.size();
   expects(sensitivity.empty() || sensitivity.size() == n * directions,
           "one initial sensitivity a state and parameter, or none");
@@ -57,10 +57,10 @@ Result<SystemTrajectory> run(const OdeSystem& system, std::span<const double> p,
                              std::size_t directions, const SystemSettings& settings) {
   expects(!times.empty(), "an instant at which the initial state holds");
   Sensitive problem(system, p, directions);
-  CvodesRun cvodes(problem, settings.stepping, times.front(), z,
-                   {settings.relative_tolerance,
-                    column_tolerances(settings, system.states(), p.first(directions)),
-                    settings.max_steps});
+  CvodesRun cvodes(
+      problem, settings.stepping, times.front(), z,
+      {settings.relative_tolerance,
+       column_tolerances(settings, system.states(), p.first(directions)), settings.max_steps});
   cvodes.stop_at(times.back());
   SystemTrajectory out;
   out.states = system.states();

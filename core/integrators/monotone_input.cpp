@@ -5,8 +5,8 @@
 
 #include <math.h>  // Boost 1.74 calls isnan without a namespace
 
-#include <boost/math/interpolators/pchip.hpp>
 #include <fmt/format.h>
+#include <boost/math/interpolators/pchip.hpp>
 
 namespace flexspline {
 
@@ -37,8 +37,8 @@ Result<MonotoneInput> MonotoneInput::through(std::span<const double> time,
                      "sort the samples and drop repeated ones");
     }
   }
-  return MonotoneInput(std::make_shared<const Cubic>(
-      Cubic{time.front(), time.back(), {{time.begin(), time.end()}, {value.begin(), value.end()}}}));
+  return MonotoneInput(std::make_shared<const Cubic>(Cubic{
+      time.front(), time.back(), {{time.begin(), time.end()}, {value.begin(), value.end()}}}));
 }
 
 double MonotoneInput::value(double t) const {

@@ -16,15 +16,15 @@ class Smoothed final : public CvodesProblem {
   std::size_t rows() const override { return 2; }
   void rate(double t, const double* z, double* zdot) override {
     zdot[0] = z[1];
-    zdot[1] = (drive_.effort(t, z[0]) - drive_.viscous * z[1] -
-               std::tanh(z[1] / width_) * level(z[1])) / drive_.inertia;
+    zdot[1] =
+        (drive_.effort(t, z[0]) - drive_.viscous * z[1] - std::tanh(z[1] / width_) * level(z[1])) /
+        drive_.inertia;
   }
   void jacobian(double t, const double* z, Eigen::Map<Eigen::MatrixXd> out) override {
     const double sign = std::tanh(z[1] / width_);
-    fill_jacobian(drive_, t, z[0],
-                  (1.0 - sign * sign) / width_ * level(z[1]) +
-                      sign * slip_level_slope(drive_, z[1]),
-                  out);
+    fill_jacobian(
+        drive_, t, z[0],
+        (1.0 - sign * sign) / width_ * level(z[1]) + sign * slip_level_slope(drive_, z[1]), out);
   }
 
  private:
@@ -32,8 +32,7 @@ class Smoothed final : public CvodesProblem {
   double level(double v) const {
     if (drive_.stribeck_speed > 0.0) return slip_level(drive_, v);
     const double u = v / (10.0 * width_);
-    return drive_.sliding_level +
-           (drive_.static_level - drive_.sliding_level) * std::exp(-u * u);
+    return drive_.sliding_level + (drive_.static_level - drive_.sliding_level) * std::exp(-u * u);
   }
 
   const DryFrictionDrive& drive_;

@@ -32,7 +32,8 @@ class OneContact final : public CvodesProblem {
     zdot[0] = sticks ? 0.0 : z[1];
     zdot[1] = sticks ? 0.0
                      : (drive_.effort(t, z[0]) - drive_.viscous * z[1] -
-                        sign_of(contact) * slip_level(drive_, z[1])) / drive_.inertia;
+                        sign_of(contact) * slip_level(drive_, z[1])) /
+                           drive_.inertia;
   }
   void jacobian(double t, const double* z, Eigen::Map<Eigen::MatrixXd> out) override {
     if (contact == Contact::stick) return void(out.setZero());
@@ -139,12 +140,14 @@ Result<void> check(const DryFrictionDrive& drive, std::span<const double> times)
                    "sort them and drop repeated ones");
   }
   const auto wrong = [](const char* name, double value, const char* rule) {
-    return failure(ErrorCode::bad_data, fmt::format("{} = {:.6g} of a dry friction drive", name, value),
+    return failure(ErrorCode::bad_data,
+                   fmt::format("{} = {:.6g} of a dry friction drive", name, value),
                    fmt::format("it has to be {}", rule));
   };
   if (!(drive.inertia > 0.0)) return wrong("inertia", drive.inertia, "positive");
   if (!(drive.viscous >= 0.0)) return wrong("viscous", drive.viscous, "0 or more");
-  if (!(drive.sliding_level >= 0.0)) return wrong("sliding_level", drive.sliding_level, "0 or more");
+  if (!(drive.sliding_level >= 0.0))
+    return wrong("sliding_level", drive.sliding_level, "0 or more");
   if (!(drive.static_level >= drive.sliding_level)) {
     return wrong("static_level", drive.static_level, "the sliding level or more");
   }

@@ -11,13 +11,12 @@ namespace flexspline {
 
 /// A measured signal as an input of an integration: the cubic through its samples that rises where
 /// they rise and falls where they fall (Fritsch and Butland 1984), so it never overshoots a sample.
-/// Continuous with its slope; third order where the signal is monotone, second at its extremes; held
-/// constant beyond the ends.
+/// Continuous with its slope; third order where the signal is monotone, second at its extremes;
+/// held constant beyond the ends.
 class MonotoneInput {
  public:
   /// Errors: bad_data for fewer than four samples, times that do not increase, values not finite.
-  static Result<MonotoneInput> through(std::span<const double> time,
-                                       std::span<const double> value);
+  static Result<MonotoneInput> through(std::span<const double> time, std::span<const double> value);
 
   double value(double t) const;
   double slope(double t) const;
