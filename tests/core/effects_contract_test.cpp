@@ -115,16 +115,20 @@ TEST_P(EveryEffect, ShowsWhereThereIsMotion) {
   EXPECT_GT(largest(change), angle ? 1e-8 : 1e-5);
 }
 
-double speed_at(Site site, const Instant<double>& x) {
+/// What the term times gives the power lost. In the kinematics a gap loses -tau times the term's
+/// rate, over a cycle the same as the term times tau'.
+double partner_of(Site site, const Instant<double>& x) {
   if (site == Site::motor) return x.motor_speed;
+  if (site == Site::kinematics) return x.transmitted_torque_rate;
   return site == Site::load ? x.load_speed : x.torsion_rate;
 }
 
 // The second of two equal cycles; the sum over equal steps of time is exact for what is smooth and
 // periodic, so that conservative effects come out at rounding.
 TEST_P(EveryEffect, MakesNoEnergyOverAClosedCycle) {
-  if (on_instrument(row().site) || row().site == Site::kinematics) GTEST_SKIP() << "does no work";
+  if (on_instrument(row().site)) GTEST_SKIP() << "does no work";
   if (!row().passive) GTEST_SKIP() << "declared active";
+  if (row().id == "backlash") GTEST_SKIP() << "its torque is a function of the torsion that is left";
   for (double period : {1.0, 30.0}) {
     constexpr std::size_t kPerCycle = 4000;
     const auto path = drive_path(period, kPerCycle, 2);
@@ -132,7 +136,7 @@ TEST_P(EveryEffect, MakesNoEnergyOverAClosedCycle) {
     double net = 0.0;
     double moved = 0.0;
     for (std::size_t i = kPerCycle; i < 2 * kPerCycle; ++i) {
-      const double power = term[i] * speed_at(row().site, path[i]);
+      const double power = term[i] * partner_of(row().site, path[i]);
       net += power;
       moved += std::abs(power);
     }

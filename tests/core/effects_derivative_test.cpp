@@ -147,7 +147,7 @@ class EveryDerivative : public testing::TestWithParam<std::size_t> {
         const auto duals = by_dual(row(), x, j);
         const auto steps = by_complex_step(row(), x, j);
         for (std::size_t out = 0; out < duals.size(); ++out) {
-          EXPECT_NEAR(duals[out], steps[out], 1e-11 * std::abs(steps[out]) + 1e-300)
+          EXPECT_NEAR(duals[out], steps[out], 1e-9 * std::abs(steps[out]) + 1e-300)
               << row().id << " by " << name_of_input(row(), x, j);
           ++tried;
           if (near_kink(row(), x, j, out)) continue;
