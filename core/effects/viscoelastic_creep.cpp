@@ -23,7 +23,7 @@ struct ViscoelasticCreep {
     for (std::size_t k = 0; k < z.size(); ++k) {
       const S elapsed(S(to.time - from.time) / p[2 * k + 1]);
       const S left(exp(S(-elapsed)));
-      z[k] = S(S(z[k] * left) + S(dx * mean_decay(elapsed)));
+      z[k] = S(S(z[k] * left) + S(dx * mean_left(elapsed)));
     }
   }
 

@@ -60,15 +60,6 @@ S limited(const S& x, const S& bound) {
   return x;
 }
 
-/// (1 - exp(-x)) / x for x >= 0, 1 at 0: mean of a decay over x time constants.
-template <class S>
-S mean_decay(const S& x) {
-  using std::exp;
-  if (real_part(x) > 1e-3) return S(S(1.0 - S(exp(S(-x)))) / x);
-  const S inner(1.0 - S(S(x / 4.0) * S(1.0 - S(x / 5.0))));
-  return S(1.0 - S(S(x / 2.0) * S(1.0 - S(S(x / 3.0) * inner))));
-}
-
 /// Rate of a stop operator (elastic, perfectly plastic): that of its input unless it yields.
 template <class S>
 S stop_rate(const S& stop, const S& input_rate, const S& yield) {
