@@ -12,7 +12,9 @@ struct QuadraticLoadFriction {
     const S torque(x.transmitted_torque / x.gear_ratio);
     const S load(torque * torque);
     const S width(p[4] * p[4]);
-    const S loaded(smooth_step(S(x.motor_torque * torque), width));
+    // Squared, so that little is left of it however hard both pull the same way.
+    const S opposed(smooth_step(S(x.motor_torque * torque), width));
+    const S loaded(opposed * opposed);
     const S driving(smooth_step(S(motor - load), width));
     const S driven(smooth_step(S(load - motor), width));
     const S squeeze(p[1] * load * driving + p[0] * motor * driven);
@@ -31,8 +33,7 @@ EffectRow describe_quadratic_load_friction() {
           "tau_f += exp(-(w/ws)^2) tanh(w/we) Q, Q = ke (tau/N)^2 if |tau_m| > |tau|/N, else "
           "km tau_m^2; 0 unless both pull against each other",
       .range =
-          "sliding, driving or back-driving; both switches are smooth over te^2, 1 % off where "
-          "the squares differ by 5 te^2",
+          "sliding, driving or back-driving; switches are smooth over te^2 and 2 % off at 5 te^2",
       .not_modelled =
           "the linear part (directional_load_friction); an exponent of the Stribeck "
           "weight other than 2",
