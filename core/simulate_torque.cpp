@@ -12,8 +12,27 @@ Result<void> apply_effects(const ModelSpec& model, std::span<const Instant<doubl
   for (const EffectSpec& spec : model.effects) {
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
-    if (on_instrument((*row)->site) != instrument) continue;
+    if (on_instrument((*row)->site) != instrument || (*row)->site == Site::kinematics) continue;
     if (auto done = apply_along(**row, spec, path, torque); !done) return done;
+  }
+  return {};
+}
+
+// Kinematics add to the torsion that the law sees; its rate by differences of what they add.
+Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> path) {
+  std::vector<double> added(path.size(), 0.0);
+  for (const EffectSpec& spec : model.effects) {
+    const auto row = find_effect(spec.effect);
+    if (!row) return tl::unexpected(row.error());
+    if ((*row)->site != Site::kinematics) continue;
+    if (auto done = apply_along(**row, spec, path, added); !done) return done;
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : 0;
+    const std::size_t after = std::min(i + 1, path.size() - 1);
+    path[i].torsion += added[i];
+    if (after == before) continue;
+    path[i].torsion_rate += (added[after] - added[before]) / (path[after].time - path[before].time);
   }
   return {};
 }
@@ -27,12 +46,13 @@ Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion
   for (const auto* law : {&f, &g_inverse, &h}) {
     if (!*law) return tl::unexpected(law->error());
   }
-  std::vector<double> torque(motion.position.size());
-  for (std::size_t i = 0; i < torque.size(); ++i) {
-    const double phi = motion.position[i];
-    torque[i] = (*f)->value(phi) + (*g_inverse)->value(motion.velocity[i] / (*h)->value(phi));
-  }
   auto path = instants_of(motion);
+  if (auto done = add_kinematics(model, path); !done) return tl::unexpected(done.error());
+  std::vector<double> torque(path.size());
+  for (std::size_t i = 0; i < torque.size(); ++i) {
+    const double phi = path[i].torsion;
+    torque[i] = (*f)->value(phi) + (*g_inverse)->value(path[i].torsion_rate / (*h)->value(phi));
+  }
   for (bool instrument : {false, true}) {
     set_torque(path, torque);
     if (auto done = apply_effects(model, path, torque, instrument); !done) {
