@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "flexspline/core/effect_path.hpp"
 #include "flexspline/core/law.hpp"
@@ -7,12 +8,21 @@
 namespace flexspline {
 namespace {
 
+// What opposes the motion, what the torque sensor adds to it, and what becomes of its signal.
+enum class Stage { force, reading, signal };
+
+std::optional<Stage> stage_of(const EffectRow& row) {
+  if (row.site == Site::torque_signal) return row.map == nullptr ? Stage::reading : Stage::signal;
+  const bool force = !on_instrument(row.site) && row.site != Site::kinematics;
+  return force ? std::optional(Stage::force) : std::nullopt;
+}
+
 Result<void> apply_effects(const ModelSpec& model, std::span<const Instant<double>> path,
-                           std::span<double> torque, bool instrument) {
+                           std::span<double> torque, Stage stage) {
   for (const EffectSpec& spec : model.effects) {
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
-    if (on_instrument((*row)->site) != instrument || (*row)->site == Site::kinematics) continue;
+    if (stage_of(**row) != stage) continue;
     if (auto done = apply_along(**row, spec, path, torque); !done) return done;
   }
   return {};
@@ -53,9 +63,9 @@ Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion
     const double phi = path[i].torsion;
     torque[i] = (*f)->value(phi) + (*g_inverse)->value(path[i].torsion_rate / (*h)->value(phi));
   }
-  for (bool instrument : {false, true}) {
+  for (Stage stage : {Stage::force, Stage::reading, Stage::signal}) {
     set_torque(path, torque);
-    if (auto done = apply_effects(model, path, torque, instrument); !done) {
+    if (auto done = apply_effects(model, path, torque, stage); !done) {
       return tl::unexpected(done.error());
     }
   }
