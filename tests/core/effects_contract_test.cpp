@@ -128,7 +128,7 @@ double partner_of(Site site, const Instant<double>& x) {
 TEST_P(EveryEffect, MakesNoEnergyOverAClosedCycle) {
   if (on_instrument(row().site)) GTEST_SKIP() << "does no work";
   if (!row().passive) GTEST_SKIP() << "declared active";
-  if (row().id == "backlash") GTEST_SKIP() << "its torque is a function of the torsion that is left";
+  if (row().id == "backlash") GTEST_SKIP() << "torque and torsion of the path are not its own";
   for (double period : {1.0, 30.0}) {
     constexpr std::size_t kPerCycle = 4000;
     const auto path = drive_path(period, kPerCycle, 2);
