@@ -1,27 +1,48 @@
 #include <algorithm>
+#include <optional>
 
-#include <fmt/format.h>
-
+#include "flexspline/core/effect_path.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/simulate.hpp"
 
 namespace flexspline {
 namespace {
 
-Result<void> apply_effects(const ModelSpec& model, const Motion& motion, std::span<double> torque,
-                           bool on_instrument) {
+// What opposes the motion, what the torque sensor adds to it, and what becomes of its signal.
+enum class Stage { force, reading, signal };
+
+std::optional<Stage> stage_of(const EffectRow& row) {
+  if (row.site == Site::torque_signal) return row.map == nullptr ? Stage::reading : Stage::signal;
+  const bool force = !on_instrument(row.site) && row.site != Site::kinematics;
+  return force ? std::optional(Stage::force) : std::nullopt;
+}
+
+Result<void> apply_effects(const ModelSpec& model, std::span<const Instant<double>> path,
+                           std::span<double> torque, Stage stage) {
   for (const EffectSpec& spec : model.effects) {
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
-    if ((*row)->on_instrument != on_instrument) continue;
-    const std::size_t group = (*row)->parameters.size();
-    const std::size_t given = spec.parameters.size();
-    if ((*row)->repeats ? given % group != 0 : given != group) {
-      return failure(ErrorCode::bad_data,
-                     fmt::format("effect {} has {} parameters", spec.effect, given),
-                     fmt::format("it takes {}{}", group, (*row)->repeats ? " an element" : ""));
-    }
-    (*row)->apply(spec, motion, torque);
+    if (stage_of(**row) != stage) continue;
+    if (auto done = apply_along(**row, spec, path, torque); !done) return done;
+  }
+  return {};
+}
+
+// Kinematics add to the torsion that the law sees; its rate by differences of what they add.
+Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> path) {
+  std::vector<double> added(path.size(), 0.0);
+  for (const EffectSpec& spec : model.effects) {
+    const auto row = find_effect(spec.effect);
+    if (!row) return tl::unexpected(row.error());
+    if ((*row)->site != Site::kinematics) continue;
+    if (auto done = apply_along(**row, spec, path, added); !done) return done;
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : 0;
+    const std::size_t after = std::min(i + 1, path.size() - 1);
+    path[i].torsion += added[i];
+    if (after == before) continue;
+    path[i].torsion_rate += (added[after] - added[before]) / (path[after].time - path[before].time);
   }
   return {};
 }
@@ -35,16 +56,18 @@ Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion
   for (const auto* law : {&f, &g_inverse, &h}) {
     if (!*law) return tl::unexpected(law->error());
   }
-  std::vector<double> torque(motion.position.size());
+  auto path = instants_of(motion);
+  if (auto done = add_kinematics(model, path); !done) return tl::unexpected(done.error());
+  std::vector<double> torque(path.size());
   for (std::size_t i = 0; i < torque.size(); ++i) {
-    const double phi = motion.position[i];
-    torque[i] = (*f)->value(phi) + (*g_inverse)->value(motion.velocity[i] / (*h)->value(phi));
+    const double phi = path[i].torsion;
+    torque[i] = (*f)->value(phi) + (*g_inverse)->value(path[i].torsion_rate / (*h)->value(phi));
   }
-  if (auto done = apply_effects(model, motion, torque, false); !done) {
-    return tl::unexpected(done.error());
-  }
-  if (auto done = apply_effects(model, motion, torque, true); !done) {
-    return tl::unexpected(done.error());
+  for (Stage stage : {Stage::force, Stage::reading, Stage::signal}) {
+    set_torque(path, torque);
+    if (auto done = apply_effects(model, path, torque, stage); !done) {
+      return tl::unexpected(done.error());
+    }
   }
   return torque;
 }

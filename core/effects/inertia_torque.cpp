@@ -3,21 +3,28 @@
 namespace flexspline {
 namespace {
 
-void apply(const EffectSpec& spec, const Motion& motion, std::span<double> torque) {
-  const double inertia = spec.parameters[0].second;
-  for (std::size_t i = 0; i < torque.size(); ++i) torque[i] += inertia * motion.acceleration[i];
-}
+struct InertiaTorque {
+  template <class S>
+  static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
+    return S(p[0] * x.torsion_acceleration);
+  }
+};
 
 }  // namespace
 
 EffectRow describe_inertia_torque() {
-  return {.id = "inertia_torque",
-          .coordinate = "acceleration",
-          .equation = "tau += J phi''",
-          .not_modelled = "an inertia that moves with another shaft than the motion measured",
-          .parameters = {{"inertia", "kg m2", -100.0, 100.0, 1.815,
-                          "N^2 (J_motor + J_wave_generator), Table II"}},
-          .apply = apply};
+  EffectRow row{.id = "inertia_torque",
+                .coordinate = "acceleration",
+                .site = Site::torque_signal,
+                .equation = "tau_measured = tau + J phi''",
+                .range = "inertia between the torsion and the torque sensor, rigid with the motion",
+                .not_modelled = "an inertia that moves with another shaft than the motion measured",
+                .source = "d'Alembert; N^2 (J_motor + J_wave_generator) of Table II as a scale",
+                .parameters = {{"inertia", "kg m2", -1e7, 1e7, 1.815,
+                                "N^2 (J_motor + J_wave_generator), Table II"}},
+                .rigs = {Rig::locked, Rig::specimen}};
+  instantiate<InertiaTorque>(row);
+  return row;
 }
 
 }  // namespace flexspline

@@ -1,30 +1,38 @@
-#include <vector>
-
+#include "delayed.hpp"
 #include "flexspline/core/effect.hpp"
-#include "flexspline/core/spline.hpp"
 
 namespace flexspline {
 namespace {
 
-void apply(const EffectSpec& spec, const Motion& motion, std::span<double> torque) {
-  const double delay = spec.parameters[0].second;
-  if (delay == 0.0) return;
-  const Spline sampled(motion.time, torque);
-  for (std::size_t i = 0; i < torque.size(); ++i) {
-    torque[i] = sampled.value(motion.time[i] - delay);
+// To first order, for derivatives at an instant; signals are mapped exactly.
+struct SensorDelay {
+  template <class S>
+  static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
+    return S(-p[0] * x.transmitted_torque_rate);
   }
+};
+
+void map(std::span<const double> time, std::span<double> signal,
+         std::span<const double> parameters) {
+  delay_signal(time, signal, parameters[0]);
 }
 
 }  // namespace
 
 EffectRow describe_sensor_delay() {
-  return {.id = "sensor_delay",
-          .coordinate = "lag",
-          .equation = "tau_measured(t) = tau(t - d)",
-          .not_modelled = "filters whose delay depends on frequency",
-          .parameters = {{"delay", "s", -1.0, 1.0, 1e-3, "anti-alias filters: 0.5 to 5 ms"}},
-          .on_instrument = true,
-          .apply = apply};
+  EffectRow row{.id = "sensor_delay",
+                .coordinate = "lag",
+                .site = Site::torque_signal,
+                .equation = "tau_measured(t) = tau(t - d)",
+                .range = "|d| well below a period of the excitation",
+                .not_modelled = "filters whose delay depends on frequency",
+                .source = "anti-alias filters and bus cycles: 0.5 to 5 ms",
+                .parameters = {{"delay", "s", -10.0, 10.0, 1e-3, "anti-alias filters"}},
+                .rigs = {Rig::locked, Rig::free, Rig::specimen},
+                .passive = false};
+  instantiate<SensorDelay>(row);
+  row.map = map;
+  return row;
 }
 
 }  // namespace flexspline

@@ -3,20 +3,28 @@
 namespace flexspline {
 namespace {
 
-void apply(const EffectSpec& spec, const Motion&, std::span<double> torque) {
-  for (double& value : torque) value += spec.parameters[0].second;
-}
+struct TorqueSensorOffset {
+  template <class S>
+  static S term(const Instant<S>&, std::span<const S> p, std::span<const S>) {
+    return p[0];
+  }
+};
 
 }  // namespace
 
 EffectRow describe_torque_sensor_offset() {
-  return {.id = "torque_sensor_offset",
-          .coordinate = "constant",
-          .equation = "tau_measured = tau + o",
-          .not_modelled = "drift of the offset",
-          .parameters = {{"offset", "Nm", -1e3, 1e3, 0.5, "0.1 to 0.5 % of full scale"}},
-          .on_instrument = true,
-          .apply = apply};
+  EffectRow row{.id = "torque_sensor_offset",
+                .coordinate = "constant",
+                .site = Site::torque_signal,
+                .equation = "tau_measured = tau + o",
+                .range = "an offset that does not change over the recordings",
+                .not_modelled = "drift of the offset",
+                .source = "data sheets of torque sensors: 0.1 to 0.5 % of full scale",
+                .parameters = {{"offset", "Nm", -1e6, 1e6, 0.5, "0.2 % of 226 Nm"}},
+                .rigs = {Rig::locked, Rig::free, Rig::specimen},
+                .rate_independent = true};
+  instantiate<TorqueSensorOffset>(row);
+  return row;
 }
 
 }  // namespace flexspline

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 
 #include <cvodes/cvodes.h>
-#include <fmt/format.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
+
+#include "integrators/cvodes_run.hpp"
 
 namespace flexspline {
 namespace {
@@ -105,11 +104,6 @@ class Integration {
   double reached_ = 0.0;
 };
 
-std::string reason(int flag) {
-  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
-  return name ? name.get() : std::to_string(flag);
-}
-
 }  // namespace
 
 Result<SensitiveTrajectory> integrate(const ScalarOde& ode, std::span<const double> times,
@@ -128,10 +122,7 @@ Result<SensitiveTrajectory> integrate(const ScalarOde& ode, std::span<const doub
     const int flag = integration.advance(times[i]);
     const auto z = integration.values();
     if (flag < 0 || !std::isfinite(z[0])) {
-      return failure(ErrorCode::numerics,
-                     fmt::format("the integration stopped at t = {:.6g} s with state {:.6g}: {}",
-                                 integration.reached(), z[0], reason(flag)),
-                     "loosen the tolerance, or look for parameters far from physical ones");
+      return tl::unexpected(stopped(integration.reached(), z.first(1), flag));
     }
     result.state.push_back(z[0]);
     result.sensitivity.insert(result.sensitivity.end(), z.begin() + 1, z.end());

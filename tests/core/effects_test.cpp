@@ -1,91 +1,23 @@
-// What every effect of the catalogue promises, and the laws of each.
+// The laws of single effects against their closed forms.
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "flexspline/core/effect.hpp"
+#include "effect_paths.hpp"
+#include "flexspline/core/effect_path.hpp"
 #include "motions.hpp"
 
 namespace flexspline {
 namespace {
 
-using Parameters = std::vector<std::pair<std::string, double>>;
-
 std::vector<double> torque_of(const std::string& effect, const Parameters& parameters,
                               const Motion& motion) {
-  std::vector<double> torque(motion.position.size(), 0.0);
   const auto row = find_effect(effect);
   EXPECT_TRUE(row);
-  (*row)->apply({.effect = effect, .parameters = parameters}, motion, torque);
-  return torque;
-}
-
-class EveryEffect : public testing::TestWithParam<std::size_t> {
- protected:
-  const EffectRow& row() const { return effects()[GetParam()]; }
-  std::string id() const { return std::string(row().id); }
-  Parameters nominal() const {
-    Parameters list;
-    for (const auto& one : row().parameters) list.emplace_back(one.name, one.nominal);
-    return list;
-  }
-};
-
-TEST_P(EveryEffect, SaysWhatItIs) {
-  EXPECT_FALSE(row().coordinate.empty());
-  EXPECT_FALSE(row().equation.empty());
-  EXPECT_FALSE(row().not_modelled.empty());
-  EXPECT_FALSE(row().parameters.empty());
-  for (const auto& parameter : row().parameters) {
-    EXPECT_FALSE(parameter.name.empty());
-    EXPECT_FALSE(parameter.unit.empty()) << parameter.name;
-    EXPECT_FALSE(parameter.source.empty()) << parameter.name;
-    EXPECT_LT(parameter.lower, parameter.upper) << parameter.name;
-    EXPECT_GE(parameter.nominal, parameter.lower) << parameter.name;
-    EXPECT_LE(parameter.nominal, parameter.upper) << parameter.name;
-  }
-}
-
-TEST_P(EveryEffect, IsSilentAtRestUnlessItIsTheInstruments) {
-  if (row().on_instrument) GTEST_SKIP() << "an instrument may be off at rest";
-  const Motion rest{.time = {0.0, 1.0, 2.0},
-                    .position = {0.01, 0.01, 0.01},
-                    .velocity = {0.0, 0.0, 0.0},
-                    .acceleration = {0.0, 0.0, 0.0}};
-  for (double torque : torque_of(id(), nominal(), rest)) EXPECT_EQ(torque, 0.0);
-}
-
-TEST_P(EveryEffect, ShowsWhereThereIsMotion) {
-  const auto motion = harmonic_motion({2e-3, 1e-3}, 400);
-  std::vector<double> torque(motion.position.size());
-  for (std::size_t i = 0; i < torque.size(); ++i) torque[i] = 100.0 * motion.position[i];
-  const auto before = torque;
-  row().apply({id(), nominal()}, motion, torque);
-  double change = 0.0;
-  for (std::size_t i = 0; i < torque.size(); ++i) {
-    change = std::max(change, std::abs(torque[i] - before[i]));
-  }
-  EXPECT_GT(change, 1e-4);
-}
-
-TEST_P(EveryEffect, MakesNoEnergyOverAClosedCycle) {
-  if (row().on_instrument) GTEST_SKIP() << "an instrument does no work";
-  constexpr int kPerCycle = 4000;
-  const auto motion = harmonic_motion({2e-3, 1e-3, 5e-4}, kPerCycle, 2);
-  const auto torque = torque_of(id(), nominal(), motion);
-  double peak = 0.0;
-  for (double value : torque) peak = std::max(peak, std::abs(value));
-  EXPECT_GE(work(motion, torque, kPerCycle, 2 * kPerCycle), -1e-9 * peak * 2e-3);
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::Range<std::size_t>(0, effects().size()),
-                         [](const auto& param) { return std::string(effects()[param.param].id); });
-
-TEST(FindEffect, RefusesOneThatDoesNotExist) {
-  const auto row = find_effect("backlash_of_the_third_kind");
-  ASSERT_FALSE(row);
-  EXPECT_THAT(row.error().message(), testing::HasSubstr("backlash_of_the_third_kind"));
+  const auto torque = terms_along(**row, {effect, parameters}, instants_of(motion));
+  EXPECT_TRUE(torque);
+  return *torque;
 }
 
 class MemoryEffect : public testing::TestWithParam<std::pair<std::string, Parameters>> {};
@@ -197,7 +129,10 @@ TEST(SensorDelay, ShiftsTheTorqueInTime) {
   const auto motion = harmonic_motion({1.0}, 2000, 2);
   std::vector<double> torque;
   for (double t : motion.time) torque.push_back(std::sin(9.0 * t));
-  (*find_effect("sensor_delay"))->apply({"sensor_delay", {{"delay", 0.0123}}}, motion, torque);
+  const auto row = find_effect("sensor_delay");
+  ASSERT_TRUE(row);
+  ASSERT_TRUE(
+      apply_along(**row, {"sensor_delay", {{"delay", 0.0123}}}, instants_of(motion), torque));
   for (std::size_t i = 100; i < torque.size(); ++i) {
     EXPECT_NEAR(torque[i], std::sin(9.0 * (motion.time[i] - 0.0123)), 1e-7);
   }

@@ -29,6 +29,9 @@ inline const std::map<std::string, std::vector<LawSpec>>& law_examples() {
       {"bounded_modulation",
        {law_spec("bounded_modulation", 0.0035, {}, {0.15, 0.3, -0.2, 0.4}),
         law_spec("bounded_modulation", 1.0, {}, {})}},
+      {"power_law",
+       {law_spec("power_law", 0.0035, {}, {4.5, 1.79}),
+        law_spec("power_law", 2.0, {}, {3.0, 0.6})}},
       {"free_spline",
        {law_spec("free_spline", 2.0, {-0.4, 1.0}, {1.0, -2.0, 4.0, 0.5, 3.0, 2.0, -1.0})}}};
   return examples;

@@ -206,6 +206,8 @@ TEST(MakeLaw, RefusesWhatDoesNotFitTheLaw) {
       {law_spec("monotone_spline", 1.0, {0.5, 1.0}, {1.0, 2.0, 3.0, 4.0, 5.0}), "knot 1"},
       {law_spec("monotone_spline", 1.0, {0.0}, {1.0, 2.0, 3.0, 4.0}), "knot 0"},
       {law_spec("monotone_spline", 1.0, {std::nan("")}, {1.0, 2.0, 3.0, 4.0}), "knot nan"},
+      {law_spec("power_law", 1.0, {}, {1.0}), "1 coefficients"},
+      {law_spec("power_law", 1.0, {}, {1.0, 0.1}), "exponent 0.1"},
       {law_spec("free_spline", 1.0, {0.5}, {1.0, 2.0, 3.0, 4.0}), "1 knots"},
       {law_spec("free_spline", 1.0, {0.5, 0.5}, {1.0, 2.0, 3.0, 4.0}), "free_spline"},
       {law_spec("free_spline", 1.0, {-1.0, 1.0}, {1.0, 2.0, 3.0}), "3 coefficients"},

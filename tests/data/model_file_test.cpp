@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dataset_fixture.hpp"
+#include "flexspline/core/effect.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/data/estimate_json.hpp"
 #include "flexspline/data/model_toml.hpp"
@@ -57,6 +58,51 @@ TEST(ModelFile, ReadsBackToTheLastBit) {
   const auto back = parse_model(model_toml(model), "MODEL.toml");
   ASSERT_TRUE(back.has_value()) << back.error().message();
   expect_same(*back, model);
+}
+
+/// Every effect once, with odd fractions of its nominal values; two elements where they repeat.
+ModelSpec model_with_every_effect() {
+  ModelSpec model = table_like_model();
+  model.effects.clear();
+  for (const EffectRow& row : effects()) {
+    EffectSpec effect{std::string(row.id), {}};
+    for (int element = 0; element < (row.repeats ? 2 : 1); ++element) {
+      for (const EffectParameter& one : row.parameters) {
+        effect.parameters.emplace_back(one.name, one.nominal + (one.upper - one.nominal) / 3.0);
+      }
+    }
+    model.effects.push_back(effect);
+  }
+  return model;
+}
+
+TEST(ModelFile, ReadsEveryEffectBack) {
+  const ModelSpec model = model_with_every_effect();
+  const auto back = parse_model(model_toml(model), "MODEL.toml");
+  ASSERT_TRUE(back.has_value()) << back.error().message();
+  expect_same(*back, model);
+  const auto from_json =
+      model_from_json(nlohmann::ordered_json::parse(to_json(model).dump()));
+  ASSERT_TRUE(from_json.has_value()) << from_json.error().message();
+  expect_same(*from_json, model);
+}
+
+// Alone, so that every refusal is this effect's.
+TEST(ModelFile, RefusesAnyEffectBeyondItsBoundsOrShortOfAParameter) {
+  for (const EffectSpec& sound : model_with_every_effect().effects) {
+    ModelSpec model = table_like_model();
+    for (std::size_t k = 0; k < sound.parameters.size(); ++k) {
+      model.effects = {sound};
+      auto& [name, value] = model.effects[0].parameters[k];
+      value = 1e300;
+      EXPECT_THAT(refusal(model_toml(model)), HasSubstr(name + " is 1e+300")) << sound.effect;
+      value = std::nan("");
+      EXPECT_NE(refusal(model_toml(model)), "") << sound.effect;
+    }
+    model.effects = {sound};
+    model.effects[0].parameters.pop_back();
+    EXPECT_THAT(refusal(model_toml(model)), HasSubstr("it takes")) << sound.effect;
+  }
 }
 
 TEST(ModelFile, WithoutHHasHOfOne) {

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "catalogue_text.hpp"
 #include "command.hpp"
+#include "effect_pages.hpp"
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/nearest_name.hpp"
+#include "flexspline/core/rig.hpp"
 #include "flexspline/data/bench.hpp"
 #include "flexspline/estimators/method.hpp"
 #include "flexspline/studies/kind.hpp"
@@ -29,10 +32,21 @@ ordered_json list_effects() {
                             {"nominal", one.nominal},
                             {"source", one.source}});
     }
+    ordered_json rigs = ordered_json::array();
+    for (const Rig rig : row.rigs) rigs.push_back(name_of(rig));
     list.push_back({{"id", row.id},
                     {"says", row.equation},
                     {"coordinate", row.coordinate},
+                    {"site", name_of(row.site)},
+                    {"enters", site_in_words(row.site)},
+                    {"rigs", rigs},
+                    {"range", row.range},
                     {"not_modelled", row.not_modelled},
+                    {"source", row.source},
+                    {"states", row.states},
+                    {"repeats", row.repeats},
+                    {"passive", row.passive},
+                    {"rate_independent", row.rate_independent},
                     {"parameters", parameters}});
   }
   return list;
@@ -49,14 +63,33 @@ ordered_json list_laws() {
 
 ordered_json list_rigs() {
   ordered_json list = ordered_json::array();
-  list.push_back({{"id", name_of(Rig::locked)},
-                  {"says", "output locked, motor position-controlled: the paper's bench"}});
-  list.push_back(
-      {{"id", name_of(Rig::free)}, {"says", "inertial load on the output, both encoders"}});
-  list.push_back({{"id", name_of(Rig::specimen)},
-                  {"says", "anything whose force follows an imposed displacement"}});
-  list.push_back({{"id", name_of(Rig::servo)},
-                  {"says", "one encoder, no torque sensor; is read, has no torsion view"}});
+  for (const RigRow& row : rigs()) {
+    ordered_json forms = ordered_json::array();
+    for (const RigForm& form : row.forms) {
+      ordered_json states = ordered_json::array();
+      for (const RigVariable& one : form.states) {
+        states.push_back({{"name", one.name}, {"unit", one.unit}, {"says", one.says}});
+      }
+      ordered_json inputs = ordered_json::array();
+      for (const Quantity one : form.inputs) inputs.push_back(name_of(one));
+      forms.push_back(
+          {{"id", form.id}, {"says", form.says}, {"states", states}, {"inputs", inputs}});
+    }
+    ordered_json constants = ordered_json::array();
+    for (const DriveConstant& one : row.constants) {
+      constants.push_back({{"name", one.name}, {"unit", one.unit}, {"says", one.says}});
+    }
+    ordered_json outputs = ordered_json::array();
+    for (const Quantity one : row.outputs) outputs.push_back(name_of(one));
+    list.push_back({{"id", row.id},
+                    {"says", row.says},
+                    {"equations", row.equations},
+                    {"not_modelled", row.not_modelled},
+                    {"forms", forms},
+                    {"constants", constants},
+                    {"outputs", outputs},
+                    {"residuals", row.residuals}});
+  }
   return list;
 }
 
@@ -116,21 +149,15 @@ constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_la
                                      {"kinds", list_kinds},     {"metrics", list_metrics},
                                      {"truths", list_truths}};
 
-std::string as_text(const ordered_json& rows) {
-  std::string text;
-  for (const ordered_json& row : rows) {
-    text += fmt::format("{}{:<26} {}", text.empty() ? "" : "\n", row.at("id").get<std::string>(),
-                        row.at("says").get<std::string>());
-    for (const char* list : {"options", "parameters"}) {
-      if (!row.contains(list)) continue;
-      for (const ordered_json& one : row.at(list)) {
-        text += fmt::format("\n    {:<24} {}", one.at("name").get<std::string>(),
-                            one.contains("says") ? one.at("says").get<std::string>()
-                                                 : one.at("unit").get<std::string>());
-      }
-    }
+Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder,
+                             Console& console) {
+  if (catalogue != "effects") {
+    return failure(ErrorCode::usage, fmt::format("--pages: '{}' has no pages", catalogue),
+                   "only effects have");
   }
-  return text;
+  if (auto done = write_effect_pages(folder); !done) return tl::unexpected(done.error());
+  console.result(folder);
+  return kDone;
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
@@ -142,8 +169,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
     return failure(ErrorCode::usage, fmt::format("there is no catalogue '{}'", name),
                    suggestion(name, names));
   }
+  if (arguments.has("pages")) return write_pages(name, arguments.text("pages"), console);
   const ordered_json rows = found->rows();
-  console.result(console.json ? rows.dump(2) : as_text(rows));
+  console.result(console.json ? rows.dump(2) : catalogue_text(rows));
   return kDone;
 }
 
@@ -155,7 +183,10 @@ CommandRow describe_list() {
           .arguments = {{.name = "catalogue",
                          .meaning = "effects, laws, rigs, estimators, kinds, metrics or truths",
                          .value = "CATALOGUE",
-                         .required = true}},
+                         .required = true},
+                        {.name = "--pages",
+                         .meaning = "writes a page for every effect to this folder instead",
+                         .value = "DIR"}},
           .example = "flexspline list estimators",
           .run = run};
 }

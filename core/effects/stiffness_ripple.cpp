@@ -1,0 +1,37 @@
+#include "flexspline/core/effect.hpp"
+#include "harmonic.hpp"
+
+namespace flexspline {
+namespace {
+
+struct StiffnessRipple {
+  template <class S>
+  static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
+    return S(x.torsion * harmonics(x.motor_angle, p));
+  }
+};
+
+}  // namespace
+
+EffectRow describe_stiffness_ripple() {
+  EffectRow row{
+      .id = "stiffness_ripple",
+      .coordinate = "motor_angle",
+      .site = Site::transmission,
+      .equation = "tau += phi sum_k D_k sin(k theta_m + p_k): K (1 + eps sin 2 theta_m), D = eps K",
+      .range = "ripple well below the law's own stiffness; orders of the wave generator",
+      .not_modelled = "the reaction on the motor, phi^2/2 dD/dtheta_m, so that it may make energy",
+      .source = "radial compliance of the wave generator; engineering judgement: eps 1 to 3 %",
+      .parameters = {{"stiffness", "Nm/rad", 0.0, 1e6, 3000.0,
+                      "2 % of K1 = 1.5e5 Nm/rad of size 45, ratio 50"},
+                     {"order", "1", 0.01, 200.0, 2.0, "two lobes of the wave generator"},
+                     {"phase", "rad", -3.2, 3.2, 0.0, "depends on the assembly"}},
+      .rigs = {Rig::locked, Rig::free, Rig::servo},
+      .repeats = true,
+      .passive = false,
+      .rate_independent = true};
+  instantiate<StiffnessRipple>(row);
+  return row;
+}
+
+}  // namespace flexspline

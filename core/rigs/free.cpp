@@ -1,0 +1,101 @@
+#include "rigs/rig_parts.hpp"
+
+namespace flexspline {
+namespace {
+
+// States theta_m, omega_m, theta_l, omega_l (, integral of the loop).
+struct FreeDrive {
+  DriveModel model;
+  RigInputs inputs;
+  std::vector<RigVariable> variables;
+  bool loop = false;
+
+  template <class S>
+  Instant<S> rates(double t, std::span<const S> y, std::span<const S> p, std::span<S> ydot) const {
+    const std::size_t own = variables.size();
+    const DriveAt<S> at(model, p, y.subspan(own));
+    Instant<S> x = moving(t, y);
+    const Instant<S> rigid = x;
+    drive_motor(at, model.drive(), inputs, loop, x, t, loop ? y[4] : S(0.0));
+    at.add_kinematics(x);
+    x.transmitted_torque = at.transmitted(x);
+    accelerate(at, x, t);
+    ydot[0] = y[1];
+    ydot[1] = x.motor_acceleration;
+    ydot[2] = y[3];
+    ydot[3] = x.load_acceleration;
+    if (loop) ydot[4] = S(input(inputs, Quantity::commanded_angle).value(t) - y[0]);
+    at.memory_rates(rigid, x, ydot.subspan(own));
+    return x;
+  }
+
+ private:
+  template <class S>
+  Instant<S> moving(double t, std::span<const S> y) const {
+    Instant<S> x;
+    x.time = S(t);
+    x.gear_ratio = S(model.drive().gear_ratio);
+    x.motor_angle = y[0];
+    x.motor_speed = y[1];
+    x.load_angle = y[2];
+    x.load_speed = y[3];
+    x.torsion = S(S(y[0] / x.gear_ratio) - y[2]);
+    x.torsion_rate = S(S(y[1] / x.gear_ratio) - y[3]);
+    return x;
+  }
+
+  // Eqs. (5) and (6).
+  template <class S>
+  void accelerate(const DriveAt<S>& at, Instant<S>& x, double t) const {
+    const S motor(x.motor_torque - at.motor_losses(x) - S(x.transmitted_torque / x.gear_ratio));
+    S load(x.transmitted_torque - at.load_torque(x));
+    if (inputs.load_torque) load -= S(inputs.load_torque->value(t));
+    x.motor_acceleration = S(motor / at.constant(&DriveSpec::motor_inertia));
+    x.load_acceleration = S(load / at.constant(&DriveSpec::load_inertia));
+    x.torsion_acceleration = S(S(x.motor_acceleration / x.gear_ratio) - x.load_acceleration);
+  }
+};
+
+Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
+                                        std::string_view name) {
+  const RigRow& row = rig_row(Rig::free);
+  const auto form = checked_form(row, drive, inputs, name,
+                                 {"gear_ratio", "motor_inertia", "load_inertia"});
+  if (!form) return tl::unexpected(form.error());
+  auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
+  if (!model) return tl::unexpected(model.error());
+  return std::make_unique<RigSystemOf<FreeDrive>>(
+      FreeDrive{std::move(*model), inputs, (*form)->states, name == "position_loop"});
+}
+
+}  // namespace
+
+RigRow describe_free() {
+  const std::vector<RigVariable> states = {{"motor_angle", "rad", "theta_m"},
+                                           {"motor_speed", "rad/s", "at the motor"},
+                                           {"load_angle", "rad", "theta_l"},
+                                           {"load_speed", "rad/s", "at the output"}};
+  auto held = states;
+  held.push_back({"loop_integral", "rad s", "int (r - theta_m) dt"});
+  return {
+      .id = "free",
+      .rig = Rig::free,
+      .says = "inertial load on the output, both encoders",
+      .equations = "J1 theta_m'' + B1 theta_m' + tau_f + tau/N = tau_m (5), "
+                   "J2 theta_l'' + B2 theta_l' + tau_L - tau = 0 (6), "
+                   "tau = g^-1(phi'/h) + f (7), phi = theta_m/N - theta_l (8)",
+      .not_modelled = "the torque tau dk/dtheta_m that a kinematic error k returns to the motor: "
+                      "eq. (5) has tau/N alone",
+      .forms = {{"motor_driven", "eqs. (5)-(8)", states, {Quantity::motor_torque}},
+                {"position_loop", "the motor held to commanded_angle", held,
+                 {Quantity::commanded_angle}}},
+      .constants = constants_named({"motor_inertia", "motor_viscous", "motor_coulomb",
+                                    "coulomb_width", "load_inertia", "load_viscous", "load_mass",
+                                    "arm_length"}),
+      .outputs = {Quantity::motor_angle, Quantity::load_angle, Quantity::transmitted_torque,
+                  Quantity::motor_torque},
+      .residuals = {"motor", "load", "torsion", "drive"},
+      .make = make};
+}
+
+}  // namespace flexspline

@@ -1,0 +1,172 @@
+#include <algorithm>
+
+#include "rigs/implicit_root.hpp"
+#include "rigs/rig_parts.hpp"
+
+namespace flexspline {
+namespace {
+
+enum class Feed { torque, current, voltage, winding };
+
+// States theta, omega at the output (, current). The transmission is rigid; effects there oppose the
+// motion of the output, which is its torsion.
+struct ServoDrive {
+  DriveModel model;
+  RigInputs inputs;
+  std::vector<RigVariable> variables;
+  Feed feed = Feed::torque;
+
+  template <class S>
+  Instant<S> rates(double t, std::span<const S> y, std::span<const S> p, std::span<S> ydot) const {
+    const std::size_t own = variables.size();
+    const DriveAt<S> at(model, p, y.subspan(own));
+    Instant<S> x = start<S>(t, y);
+    if (feed == Feed::torque) {
+      x.motor_torque_rate = S(rate_of(input(inputs, Quantity::motor_torque), t));
+    }
+    at.set_motor_torque(x, motor_torque(at, x, t, y));
+    const S acceleration = solve(at, x, t, y, p);
+    surplus(at, x, acceleration, t);
+    ydot[0] = y[1];
+    ydot[1] = acceleration;
+    if (feed == Feed::winding) ydot[2] = winding_rate(at, x, t, y[2]);
+    at.memory_rates(start<S>(t, y), x, ydot.subspan(own));
+    return x;
+  }
+
+ private:
+  template <class S, class T>
+  Instant<S> start(double t, std::span<const T> y) const {
+    Instant<S> x;
+    x.time = S(t);
+    x.gear_ratio = S(model.drive().gear_ratio);
+    x.load_angle = x.torsion = value_as<S>(y[0]);
+    x.load_speed = x.torsion_rate = value_as<S>(y[1]);
+    x.motor_angle = S(x.gear_ratio * x.load_angle);
+    x.motor_speed = S(x.gear_ratio * x.load_speed);
+    return x;
+  }
+
+  template <class S, class T>
+  static S value_as(const T& v) {
+    if constexpr (std::is_same_v<S, T>) {
+      return v;
+    } else {
+      return S(real_part(v));
+    }
+  }
+
+  bool enabled(double t) const {
+    const auto found = inputs.channels.find(Quantity::drive_enabled);
+    return found == inputs.channels.end() || found->second.value(t) >= 0.5;
+  }
+
+  double voltage(double t) const {
+    const double duty = input(inputs, Quantity::duty_cycle).value(t);
+    return duty * input(inputs, Quantity::supply_voltage).value(t);
+  }
+
+  // A drive that is off carries no current, but for what its winding lets decay.
+  template <class S>
+  S motor_torque(const DriveAt<S>& at, const Instant<S>& x, double t, std::span<const S> y) const {
+    if (feed == Feed::winding) return S(at.constant(&DriveSpec::torque_constant) * y[2]);
+    if (!enabled(t)) return S(0.0);
+    if (feed == Feed::torque) return S(input(inputs, Quantity::motor_torque).value(t));
+    const S kt = at.constant(&DriveSpec::torque_constant);
+    if (feed == Feed::current) return S(kt * input(inputs, Quantity::current).value(t));
+    const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
+    return S(S(kt * S(voltage(t) - emf)) / at.constant(&DriveSpec::resistance));
+  }
+
+  // L i' = V - R i - ke omega; off, the current decays through the bridge.
+  template <class S>
+  S winding_rate(const DriveAt<S>& at, const Instant<S>& x, double t, const S& current) const {
+    const S drop(at.constant(&DriveSpec::resistance) * current);
+    const S inductance = at.constant(&DriveSpec::inductance);
+    if (!enabled(t)) return S(-drop / inductance);
+    const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
+    return S(S(S(voltage(t)) - drop - emf) / inductance);
+  }
+
+  // N (tau_m - J1 N a - losses) - tau - effects, with tau = J2 a + load; x is completed on the way.
+  template <class S>
+  S surplus(const DriveAt<S>& at, Instant<S>& x, const S& a, double t) const {
+    x.load_acceleration = x.torsion_acceleration = a;
+    x.motor_acceleration = S(x.gear_ratio * a);
+    x.transmitted_torque = S(S(at.constant(&DriveSpec::load_inertia) * a) + at.load_torque(x));
+    if (inputs.load_torque) x.transmitted_torque += S(inputs.load_torque->value(t));
+    const S inertia(at.constant(&DriveSpec::motor_inertia) * x.motor_acceleration);
+    const S motor(x.gear_ratio * S(x.motor_torque - inertia - at.motor_losses(x)));
+    return S(motor - x.transmitted_torque - at.sum(Site::transmission, x));
+  }
+
+  // Friction that grows with the torque transmitted makes the acceleration implicit.
+  template <class S>
+  S solve(const DriveAt<S>& at, Instant<S>& x, double t, std::span<const S> y,
+          std::span<const S> p) const {
+    const auto memory = real_parts(y.subspan(variables.size()));
+    const auto parameters = real_parts(p);
+    const DriveAt<Complex> complex_at(model, parameters, memory);
+    Instant<Complex> z = start<Complex>(t, y);
+    z.motor_torque = Complex(real_part(x.motor_torque));
+    z.motor_torque_rate = Complex(real_part(x.motor_torque_rate));
+    return implicit_root<S>([&](const Complex& a) { return -surplus(complex_at, z, a, t); },
+                            [&](const S& a) { return S(-surplus(at, x, a, t)); }, 1.0);
+  }
+};
+
+constexpr std::pair<std::string_view, Feed> kFeeds[] = {{"torque_driven", Feed::torque},
+                                                        {"current_driven", Feed::current},
+                                                        {"voltage_driven", Feed::voltage},
+                                                        {"winding", Feed::winding}};
+
+Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
+                                        std::string_view name) {
+  const RigRow& row = rig_row(Rig::servo);
+  const auto form =
+      name == "winding"
+          ? checked_form(row, drive, inputs, name, {"gear_ratio", "resistance", "inductance"})
+      : name == "voltage_driven"
+          ? checked_form(row, drive, inputs, name, {"gear_ratio", "resistance"})
+          : checked_form(row, drive, inputs, name, {"gear_ratio"});
+  if (!form) return tl::unexpected(form.error());
+  if (!(reflected_inertia(drive) + drive.load_inertia > 0.0)) {
+    return failure(ErrorCode::bad_data, "servo: neither motor_inertia nor load_inertia is positive",
+                   "give the inertia that turns");
+  }
+  auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
+  if (!model) return tl::unexpected(model.error());
+  const auto* feed = std::ranges::find(kFeeds, (*form)->id, &std::pair<std::string_view, Feed>::first);
+  return std::make_unique<RigSystemOf<ServoDrive>>(
+      ServoDrive{std::move(*model), inputs, (*form)->states, feed->second});
+}
+
+}  // namespace
+
+RigRow describe_servo() {
+  const std::vector<RigVariable> states = {{"load_angle", "rad", "theta at the output"},
+                                           {"load_speed", "rad/s", "omega at the output"}};
+  auto winding = states;
+  winding.push_back({"current", "A", "in the winding"});
+  const std::vector<Quantity> bridge = {Quantity::duty_cycle, Quantity::supply_voltage};
+  return {.id = "servo",
+          .rig = Rig::servo,
+          .says = "one encoder, a pendulum or inertial load, no torque sensor; no torsion view",
+          .equations = "(N^2 J1 + J2) theta'' + (N^2 B1 + B2) theta' + N tau_f + m g l sin(theta) = "
+                       "N tau_m, (5) and (6) with phi = 0; tau_m = kt i, "
+                       "L i' = V - R i - ke omega_m, V = duty supply",
+          .not_modelled = "torsion, sag of the supply beyond what supply_voltage records",
+          .forms = {{"torque_driven", "by motor_torque", states, {Quantity::motor_torque}},
+                    {"current_driven", "tau_m = kt i", states, {Quantity::current}},
+                    {"voltage_driven", "tau_m = kt (V - ke omega)/R", states, bridge},
+                    {"winding", "with the inductance of the winding", winding, bridge}},
+          .constants = constants_named({"motor_inertia", "motor_viscous", "motor_coulomb",
+                                        "coulomb_width", "load_inertia", "load_viscous",
+                                        "load_mass", "arm_length", "torque_constant", "resistance",
+                                        "inductance", "back_emf"}),
+          .outputs = {Quantity::load_angle, Quantity::velocity, Quantity::motor_torque},
+          .residuals = {"drive"},
+          .make = make};
+}
+
+}  // namespace flexspline

@@ -1,0 +1,100 @@
+#include "rigs/implicit_root.hpp"
+#include "rigs/rig_parts.hpp"
+
+namespace flexspline {
+namespace {
+
+// State phi: the motion is motor, load and torsion at once. Effects at motor, load and transmission
+// add to the effort, and see the torque of the torsion law, as in simulate_torque.
+struct Specimen {
+  DriveModel model;
+  RigInputs inputs;
+  std::vector<RigVariable> variables;
+  Quantity effort = Quantity::transmitted_torque;
+
+  template <class S>
+  Instant<S> rates(double t, std::span<const S> y, std::span<const S> p, std::span<S> ydot) const {
+    const DriveAt<S> at(model, p, y.subspan(1));
+    const auto memory = real_parts(y.subspan(1));
+    const auto parameters = real_parts(p);
+    const DriveAt<Complex> complex_at(model, parameters, memory);
+    const double wanted = input(inputs, effort).value(t);
+    Instant<Complex> z = start(t, Complex(real_part(y[0])));
+    Instant<S> x = start(t, y[0]);
+    const S speed = implicit_root<S>(
+        [&](const Complex& v) { return recorded(complex_at, z, v) - wanted; },
+        [&](const S& v) { return S(recorded(at, x, v) - S(wanted)); },
+        model.drive().torsion.g_inverse.scale);
+    recorded(at, x, speed);
+    ydot[0] = speed;
+    at.memory_rates(at_speed(start(t, y[0]), speed), x, ydot.subspan(1));
+    return x;
+  }
+
+ private:
+  template <class S>
+  static Instant<S> start(double t, const S& motion) {
+    Instant<S> x;
+    x.time = S(t);
+    x.motor_angle = x.load_angle = x.torsion = motion;
+    return x;
+  }
+
+  template <class S>
+  static Instant<S> at_speed(Instant<S> x, const S& v) {
+    x.motor_speed = x.load_speed = x.torsion_rate = v;
+    return x;
+  }
+
+  // The effort that a bench would record at this speed; x holds the true one afterwards.
+  template <class S>
+  S recorded(const DriveAt<S>& at, Instant<S>& x, const S& v) const {
+    x.torsion = x.motor_angle;
+    x = at_speed(x, v);
+    at.add_kinematics(x);
+    x.transmitted_torque = at.torsion_law(x);
+    const S effects(at.sum(Site::transmission, x) + at.sum(Site::motor, x) +
+                    at.sum(Site::load, x));
+    x.transmitted_torque += effects;
+    return S(x.transmitted_torque + at.sum(Site::torque_signal, x));
+  }
+};
+
+Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
+                                        std::string_view name) {
+  const RigRow& row = rig_row(Rig::specimen);
+  RigInputs given = inputs;
+  for (Quantity other : {Quantity::torque, Quantity::force}) {
+    const auto found = inputs.channels.find(other);
+    if (found != inputs.channels.end()) {
+      given.channels.emplace(Quantity::transmitted_torque, found->second);
+    }
+  }
+  const auto form = checked_form(row, drive, given, name, {});
+  if (!form) return tl::unexpected(form.error());
+  auto model = DriveModel::make(drive, row.constants, {Site::torque_signal});
+  if (!model) return tl::unexpected(model.error());
+  return std::make_unique<RigSystemOf<Specimen>>(
+      Specimen{std::move(*model), std::move(given), (*form)->states});
+}
+
+}  // namespace
+
+RigRow describe_specimen() {
+  return {.id = "specimen",
+          .rig = Rig::specimen,
+          .says = "anything whose force follows an imposed displacement",
+          .equations = "phi' = h(phi) g(tau - f(phi)) (3), and displacement-driven "
+                       "tau = g^-1(phi'/h(phi)) + f(phi) (4); motion in rad (m), effort in Nm (N)",
+          .not_modelled = "mass of the specimen, but for inertia_torque when displacement-driven",
+          .forms = {{"force_driven",
+                     "eq. (3) with the effects' memory; displacement-driven is simulate_torque",
+                     {{"motion", "rad", "phi, or m"}},
+                     {Quantity::transmitted_torque}}},
+          .constants = {},
+          .outputs = {Quantity::torsion, Quantity::transmitted_torque},
+          .residuals = {"torsion"},
+          .make = make};
+}
+
+}  // namespace flexspline

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+#include "flexspline/data/hidden_bench.hpp"
+
+namespace flexspline::data {
+
+/// A gear drawn from a seed. speed is the torsion rate around which g^-1 bends, rad/s.
+HiddenGear draw_gear(Rig rig, std::uint64_t seed, double rated_torque, double rated_torsion,
+                     double speed);
+
+/// Recordings that ask the gear for its rated torque.
+std::vector<HiddenExcitation> draw_design(Rig rig, std::uint64_t seed, const HiddenGear& gear);
+
+}  // namespace flexspline::data

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/recording.hpp"
+
+namespace flexspline::data {
+
+/// A drive whose laws no estimator shares: f and g^-1 odd, rising, smooth and not polynomial,
+/// h even and positive. SI; what a rig does not have is 0 (a specimen has no motor and ratio 1).
+struct HiddenGear {
+  std::string families;                        ///< which f, g^-1 and h were drawn, for the answer
+  std::function<double(double)> stiffness;     ///< f(phi), Nm
+  std::function<double(double)> damping;       ///< g^-1(phi'/h), Nm
+  std::function<double(double)> modulation;    ///< h(phi)
+  double rated_torsion = 0.0;    ///< rad, the windup under rated_torque
+  double rated_torque = 0.0;     ///< Nm, what the design's largest motion asks for
+  double gear_ratio = 50.0;
+  double motor_inertia = 0.0;    ///< kg m2
+  double motor_drag = 0.0;       ///< Nm s/rad
+  double motor_coulomb = 0.0;    ///< Nm
+  double motor_coulomb_speed = 1.0;  ///< rad/s: friction is coulomb w / sqrt(w^2 + this^2)
+  double load_inertia = 0.0;     ///< kg m2
+  double load_drag = 0.0;        ///< Nm s/rad
+  double load_mass = 0.0;        ///< kg, of the servo's pendulum
+  double arm_length = 0.0;       ///< m
+};
+
+enum class HiddenMotion { sine, multisine, ramp, step_hold, staircase };
+
+/// One recording to make. The motion is that of the shaft that the rig's position loop holds: the
+/// torsion on locked and specimen, the load on free and servo. It starts at rest and unloaded.
+/// staircase: out and back on both sides at constant speeds 1 : 2 : 4; ramp: the same at one speed.
+struct HiddenExcitation {
+  HiddenMotion motion = HiddenMotion::sine;
+  double amplitude = 0.0;     ///< rad at the output; the largest travel
+  double frequency_hz = 0.0;  ///< of a sine, the lowest of a multisine, else cycles / duration
+  double cycles = 3.0;        ///< duration times frequency
+  int samples = 700;
+};
+
+/// What the instruments add. Shares of noise are of the peak torque of the same sensor.
+struct HiddenNuisances {
+  double torque_noise = 0.0;         ///< rms share, white and coloured together
+  double coloured_share = 0.0;       ///< of the noise's variance; a first-order process
+  double coloured_samples = 20.0;    ///< its correlation, in samples
+  double motor_encoder_step = 0.0;   ///< rad at the motor (torsion on a specimen); 0: not quantised
+  double load_encoder_step = 0.0;    ///< rad at the load
+  double time_jitter = 0.0;          ///< rms share of the interval; stamps tell the true instants
+  double angle_zero = 0.0;           ///< rad at the output: the torsion's zero is off by this
+};
+
+/// A whole bench, drawn or put together by hand.
+struct HiddenBench {
+  Rig rig = Rig::locked;
+  std::uint64_t seed = 0;
+  HiddenGear gear;
+  std::vector<HiddenExcitation> design;
+  HiddenNuisances nuisances;
+};
+
+/// The equation whose residual an effect's size is measured in: the drive is that of a servo, motor
+/// torque over load motion.
+enum class HiddenEquation { torsion, load, motor, drive };
+
+/// What to conceal: size_fraction is the largest residual it leaves in its equation, on signals
+/// without noise and with the true laws, over the peak torque of that equation's sensor
+/// (transmitted torque; motor torque for motor and drive) on the bench without it.
+struct HiddenEffect {
+  std::string id;
+  double size_fraction = 0.0;
+};
+
+struct HiddenParameter {
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+};
+
+/// What was concealed, as it came out.
+struct HiddenFinding {
+  std::string id;
+  std::string coordinate;    ///< empty: outside the catalogue of diagnoses
+  HiddenEquation equation = HiddenEquation::torsion;
+  double size_fraction = 0.0;  ///< measured, alone on the bench
+  std::vector<HiddenParameter> parameters;
+};
+
+struct HiddenAnswer {
+  std::vector<HiddenFinding> effects;  ///< by id; empty: nothing is hidden
+  double noise_std = 0.0;              ///< Nm, of the transmitted torque
+  double motor_noise_std = 0.0;        ///< Nm, of the motor torque
+  double peak_torque = 0.0;            ///< Nm, transmitted, on the bench without the effects
+  double peak_motor_torque = 0.0;      ///< Nm
+};
+
+/// ideal: the same channels at the same instants without noise, quantisation or zero error.
+struct HiddenDataset {
+  RecordingSet measured;
+  RecordingSet ideal;
+  HiddenAnswer answer;
+};
+
+struct HiddenLaw;    // what an effect adds, bench/hidden_law.hpp
+struct HiddenScale;  // how large things are on a bench, bench/hidden_law.hpp
+
+/// Where an effect enters.
+enum class HiddenSite { transmission, load, motor, torque_sensor, motor_sensor, encoder };
+
+/// A row of the catalogue of concealable effects, one file each in data/bench/hidden. Ids and
+/// coordinates are those of diagnoses; "unknown:..." ones are in no catalogue.
+struct HiddenRow {
+  std::string_view id;
+  std::string_view coordinate;
+  std::string_view equation;  ///< as it is added here; other forms than the estimators fit
+  HiddenSite site = HiddenSite::transmission;
+  std::vector<Rig> rigs;
+  bool dissipates = false;    ///< what it adds takes energy from every closed cycle
+  HiddenLaw (*make)(const HiddenScale& scale, double amount) = nullptr;
+};
+
+std::span<const HiddenRow> hidden_effects();
+
+/// Errors: usage, with every id there is.
+Result<const HiddenRow*> find_hidden_effect(std::string_view id);
+
+HiddenEquation hidden_equation(HiddenSite site, Rig rig);
+std::string_view name_of(HiddenEquation equation);
+std::string_view name_of(HiddenMotion motion);
+
+/// A bench drawn from a seed: families and parameters of the gear (+-20 % and more), a design of
+/// eight to eleven recordings in two decades of rate, noise of 0.3 to 0.6 %, encoders, jitter.
+HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed);
+
+/// Runs the bench with the effects and without any, deterministic by the bench's seed: neither the
+/// order of the effects nor that of the recordings matters, and size 0 is absence.
+/// How: the held shaft's motion is prescribed and the torques follow by inverse dynamics on a grid
+/// of eight steps a sample. On free and servo the torsion is what the load's torque asks for, by
+/// BDF2 with a bracketed Newton iteration; so it is with compliance in series. Each effect's amount
+/// is found by repeating the run with it alone until its size is met to 2 %.
+/// Not modelled: the position loop's error, torque saturation, resonances of load and gear.
+/// Errors: usage for an unknown effect, one that the rig does not have, a size that it cannot reach
+/// and a setting out of range; numerics where a torque is not finite.
+Result<HiddenDataset> run_hidden_bench(const HiddenBench& bench,
+                                       std::vector<HiddenEffect> effects);
+
+}  // namespace flexspline::data

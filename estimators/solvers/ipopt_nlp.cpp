@@ -1,0 +1,196 @@
+#include "solvers/ipopt_nlp.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <coin/IpIpoptApplication.hpp>
+#include <coin/IpSolveStatistics.hpp>
+#include <coin/IpTNLP.hpp>
+
+#include "solvers/ipopt_lock.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+using Ipopt::Index;
+using Ipopt::Number;
+
+constexpr double kUnbounded = 2e19;  // Ipopt's infinity is 1e19
+
+std::span<const double> view(const Number* x, Index n) { return {x, static_cast<std::size_t>(n)}; }
+std::span<double> view(Number* x, Index n) { return {x, static_cast<std::size_t>(n)}; }
+
+// Ipopt asks for a matrix once for its places and then for its values.
+template <class Fill>
+bool places_or_values(const SparsePattern& pattern, Index* row, Index* column, Number* values,
+                      Fill fill) {
+  if (values != nullptr) return fill(view(values, static_cast<Index>(pattern.size())));
+  std::ranges::copy(pattern.row, row);
+  std::ranges::copy(pattern.column, column);
+  return true;
+}
+
+class Bridge final : public Ipopt::TNLP {
+ public:
+  Bridge(const SparseNlp& nlp, std::span<const double> start)
+      : nlp_(nlp),
+        start_(start),
+        jacobian_(nlp.jacobian_pattern()),
+        hessian_(nlp.hessian_pattern()) {}
+
+  bool get_nlp_info(Index& n, Index& m, Index& in_jacobian, Index& in_hessian,
+                    IndexStyleEnum& style) override {
+    n = static_cast<Index>(nlp_.variables());
+    m = static_cast<Index>(nlp_.constraints());
+    in_jacobian = static_cast<Index>(jacobian_.size());
+    in_hessian = static_cast<Index>(hessian_.size());
+    style = C_STYLE;
+    return true;
+  }
+
+  bool get_bounds_info(Index n, Number* x_l, Number* x_u, Index m, Number* g_l,
+                       Number* g_u) override {
+    nlp_.bounds(view(x_l, n), view(x_u, n));
+    for (Index k = 0; k < n; ++k) {
+      x_l[k] = std::max(x_l[k], -kUnbounded);
+      x_u[k] = std::min(x_u[k], kUnbounded);
+    }
+    std::fill_n(g_l, m, 0.0);
+    std::fill_n(g_u, m, 0.0);
+    return true;
+  }
+
+  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool,
+                          Number*) override {
+    std::ranges::copy(start_, x);
+    return true;
+  }
+
+  bool eval_f(Index n, const Number* x, bool, Number& f) override {
+    return nlp_.objective(view(x, n), f) && std::isfinite(f);
+  }
+  bool eval_grad_f(Index n, const Number* x, bool, Number* g) override {
+    return nlp_.gradient(view(x, n), view(g, n));
+  }
+  bool eval_g(Index n, const Number* x, bool, Index m, Number* c) override {
+    ++solution.evaluations;
+    return nlp_.constraint(view(x, n), view(c, m));
+  }
+  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* row, Index* column,
+                  Number* values) override {
+    return places_or_values(jacobian_, row, column, values,
+                            [&](std::span<double> out) { return nlp_.jacobian(view(x, n), out); });
+  }
+  bool eval_h(Index n, const Number* x, bool, Number factor, Index m, const Number* lambda, bool,
+              Index, Index* row, Index* column, Number* values) override {
+    return places_or_values(hessian_, row, column, values, [&](std::span<double> out) {
+      return nlp_.hessian(view(x, n), factor, view(lambda, m), out);
+    });
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
+                         const Number*, Index m, const Number* c, const Number*, Number f,
+                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    solution.x.assign(x, x + n);
+    solution.objective = f;
+    solution.violation = 0.0;
+    for (Index k = 0; k < m; ++k) solution.violation = std::max(solution.violation, std::abs(c[k]));
+  }
+
+  NlpSolution solution;
+
+ private:
+  const SparseNlp& nlp_;
+  std::span<const double> start_;
+  SparsePattern jacobian_;
+  SparsePattern hessian_;
+};
+
+// Scaling is ours. Debian's MUMPS needs the last two: with its defaults it regularises the dense
+// columns of parameters away, or spends minutes ordering them.
+void set_options(Ipopt::OptionsList& options, const NlpSettings& settings) {
+  options.SetStringValue("linear_solver", "mumps");
+  options.SetIntegerValue("print_level", 0);
+  options.SetStringValue("sb", "yes");
+  options.SetNumericValue("tol", settings.tolerance);
+  options.SetNumericValue("constr_viol_tol", settings.tolerance);
+  options.SetNumericValue("compl_inf_tol", settings.tolerance);
+  options.SetIntegerValue("max_iter", settings.max_iterations);
+  options.SetIntegerValue("acceptable_iter", 0);
+  options.SetStringValue("nlp_scaling_method", "none");
+  options.SetNumericValue("obj_scaling_factor", settings.objective_scale);
+  options.SetNumericValue("bound_relax_factor", 0.0);
+  options.SetNumericValue("mu_init", settings.barrier_start);
+  options.SetIntegerValue("mumps_permuting_scaling", 0);
+  options.SetIntegerValue("mumps_pivot_order", 6);
+}
+
+Termination termination_of(Ipopt::ApplicationReturnStatus status) {
+  switch (status) {
+    case Ipopt::Solve_Succeeded:
+      return Termination::converged;
+    case Ipopt::Maximum_Iterations_Exceeded:
+      return Termination::iteration_limit;
+    case Ipopt::Solved_To_Acceptable_Level:
+    case Ipopt::Search_Direction_Becomes_Too_Small:
+      return Termination::no_progress;
+    default:
+      return Termination::failed;
+  }
+}
+
+std::string words_for(Ipopt::ApplicationReturnStatus status) {
+  switch (status) {
+    case Ipopt::Solve_Succeeded:
+      return "solved";
+    case Ipopt::Solved_To_Acceptable_Level:
+      return "solved to an acceptable level only";
+    case Ipopt::Infeasible_Problem_Detected:
+      return "converged to a point that violates the constraints";
+    case Ipopt::Search_Direction_Becomes_Too_Small:
+      return "steps too small to go on";
+    case Ipopt::Diverging_Iterates:
+      return "the iterates run away";
+    case Ipopt::Maximum_Iterations_Exceeded:
+      return "iteration limit";
+    case Ipopt::Restoration_Failed:
+      return "no way back to the constraints";
+    case Ipopt::Error_In_Step_Computation:
+      return "the linear system cannot be solved";
+    case Ipopt::Invalid_Number_Detected:
+      return "the functions cannot be evaluated";
+    case Ipopt::Not_Enough_Degrees_Of_Freedom:
+      return "more constraints than variables";
+    case Ipopt::Insufficient_Memory:
+      return "out of memory";
+    default:
+      return "status " + std::to_string(static_cast<int>(status)) + " of Ipopt";
+  }
+}
+
+}  // namespace
+
+Result<NlpSolution> minimise(const SparseNlp& nlp, std::span<const double> start,
+                             const NlpSettings& settings) {
+  const std::lock_guard guard(ipopt_lock());
+  Ipopt::SmartPtr<Bridge> bridge = new Bridge(nlp, start);
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
+  set_options(*application->Options(), settings);
+  auto status = application->Initialize("");
+  if (status == Ipopt::Solve_Succeeded) {
+    Ipopt::SmartPtr<Ipopt::TNLP> problem = Ipopt::GetRawPtr(bridge);
+    status = application->OptimizeTNLP(problem);
+  }
+  NlpSolution& solution = bridge->solution;
+  solution.termination = termination_of(status);
+  solution.status = words_for(status);
+  const auto statistics = application->Statistics();
+  if (IsValid(statistics)) solution.iterations = statistics->IterationCount();
+  if (solution.termination == Termination::failed || solution.x.empty()) {
+    return failure(ErrorCode::numerics, "Ipopt gave up: " + solution.status,
+                   "start nearer, or widen what the bounds allow");
+  }
+  return solution;
+}
+
+}  // namespace flexspline::estimators

@@ -1,0 +1,56 @@
+#include "catalogue_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace flexspline::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string words(const ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const ordered_json& one : value) text += (text.empty() ? "" : ", ") + words(one);
+  return text;
+}
+
+/// An option's meaning; a parameter's unit, bounds and nominal value.
+std::string explained(const ordered_json& one) {
+  if (one.contains("says")) return words(one.at("says"));
+  return fmt::format("{}, {} to {}, nominal {} ({})", words(one.at("unit")), words(one.at("lower")),
+                     words(one.at("upper")), words(one.at("nominal")), words(one.at("source")));
+}
+
+/// What an effect says beyond its equation and parameters.
+std::string further_words(const ordered_json& row) {
+  std::string text;
+  if (!row.contains("enters")) return text;
+  for (const char* key : {"enters", "coordinate", "rigs", "range", "not_modelled", "source",
+                          "states", "passive", "rate_independent"}) {
+    text += fmt::format("\n  {:<18} {}", key, words(row.at(key)));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string catalogue_text(const ordered_json& rows) {
+  std::string text;
+  for (const ordered_json& row : rows) {
+    text += fmt::format("{}{:<26} {}", text.empty() ? "" : "\n", row.at("id").get<std::string>(),
+                        row.at("says").get<std::string>());
+    text += further_words(row);
+    for (const char* list : {"options", "parameters"}) {
+      if (!row.contains(list)) continue;
+      for (const ordered_json& one : row.at(list)) {
+        text += fmt::format("\n    {:<24} {}", one.at("name").get<std::string>(), explained(one));
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace flexspline::app

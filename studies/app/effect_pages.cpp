@@ -1,0 +1,105 @@
+#include "effect_pages.hpp"
+
+#include <fmt/format.h>
+
+#include "flexspline/core/write_file.hpp"
+
+namespace flexspline::app {
+namespace {
+
+constexpr std::string_view kOrigin =
+    "<!-- Written by `flexspline list effects --pages docs/effects`; change the row, not this. -->";
+
+std::string rigs_of(const EffectRow& row) {
+  std::string list;
+  for (const Rig rig : row.rigs) {
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", name_of(rig));
+  }
+  return list;
+}
+
+std::string memory_of(const EffectRow& row) {
+  if (row.states == 0) return "none";
+  return fmt::format("{} state{}{}", row.states, row.states == 1 ? "" : "s",
+                     row.repeats ? " an element" : "");
+}
+
+std::string facts(const EffectRow& row) {
+  const auto yes = [](bool is) { return is ? "yes" : "no"; };
+  return fmt::format(
+      "| | |\n|---|---|\n"
+      "| enters | {} |\n"
+      "| organised in | {} |\n"
+      "| rigs | {} |\n"
+      "| memory | {} |\n"
+      "| passive: makes no energy over a closed cycle | {} |\n"
+      "| rate independent | {} |\n",
+      site_in_words(row.site), row.coordinate, rigs_of(row), memory_of(row), yes(row.passive),
+      yes(row.rate_independent));
+}
+
+std::string parameter_table(const EffectRow& row) {
+  std::string table = fmt::format(
+      "| parameter | unit | from | to | nominal | nominal after |\n|---|---|---|---|---|---|\n");
+  for (const EffectParameter& one : row.parameters) {
+    table += fmt::format("| `{}` | {} | {:.6g} | {:.6g} | {:.6g} | {} |\n", one.name, one.unit,
+                         one.lower, one.upper, one.nominal, one.source);
+  }
+  if (row.repeats) table += "\nThe parameters repeat, one group an element.\n";
+  return table;
+}
+
+}  // namespace
+
+std::string_view site_in_words(Site site) {
+  switch (site) {
+    case Site::motor:
+      return "motor equation (5), Nm at the motor shaft, opposing the motor torque";
+    case Site::load:
+      return "load equation (6), Nm at the output, opposing the transmitted torque";
+    case Site::transmission:
+      return "torsion law (7), Nm at the output, part of the transmitted torque";
+    case Site::kinematics:
+      return "kinematics (8), rad at the output, part of the torsion";
+    case Site::torque_signal:
+      return "torque signal, Nm: measured minus true transmitted torque";
+    case Site::motor_torque_signal:
+      return "motor torque signal, Nm: recorded minus true motor torque";
+    case Site::motor_angle_signal:
+      return "motor angle signal, rad: measured minus true motor angle";
+    case Site::load_angle_signal:
+      return "load angle signal, rad: measured minus true load angle";
+  }
+  return "unknown";
+}
+
+std::string effect_page(const EffectRow& row) {
+  return fmt::format(
+      "{}\n# {}\n\n    {}\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of 226 Nm and "
+      "ratio 50.\n\n{}\n## Range\n\nHolds for: {}.\n\nNot modelled: {}.\n\n## Source\n\n{}\n",
+      kOrigin, row.id, row.equation, facts(row), parameter_table(row), row.range,
+      row.not_modelled, row.source);
+}
+
+std::string effect_index() {
+  std::string text = fmt::format(
+      "{}\n# Effects\n\nWhat a recording can show beyond the torsion law "
+      "tau = f(phi) + g^-1(phi'/h(phi)) and the drive\nof Dhaouadi and Ghorbel (2003), eqs. "
+      "(5)-(8). One page each.\n\n| effect | organised in | enters |\n|---|---|---|\n",
+      kOrigin);
+  for (const EffectRow& row : effects()) {
+    text += fmt::format("| [{0}]({0}.md) | {1} | {2} |\n", row.id, row.coordinate,
+                        site_in_words(row.site));
+  }
+  return text;
+}
+
+Result<void> write_effect_pages(const std::filesystem::path& folder) {
+  for (const EffectRow& row : effects()) {
+    const auto path = folder / fmt::format("{}.md", row.id);
+    if (auto done = write_file(path, effect_page(row)); !done) return done;
+  }
+  return write_file(folder / "README.md", effect_index());
+}
+
+}  // namespace flexspline::app

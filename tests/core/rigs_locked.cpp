@@ -1,0 +1,255 @@
+// The paper's bench and a specimen, driven by torque and by motion.
+#include <numbers>
+
+#include "flexspline/core/law.hpp"
+#include "flexspline/core/simulate.hpp"
+#include "motions.hpp"
+#include "rig_examples.hpp"
+
+namespace flexspline {
+namespace {
+
+LawSpec unity() { return law_spec("bounded_modulation", 1.0, {}, {}); }
+
+/// Table I of Dhaouadi and Ghorbel (2003): coefficients b of g^-1 in Nm at 6.283e-3 deg/s.
+std::vector<double> table_one_damping() {
+  std::vector<double> b = {65.594, 5.571e7, -2.485e12, 5.615e16, -4.673e20};
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    b[k] *= std::pow(6.283e-3, static_cast<double>(2 * k + 1));
+  }
+  return b;
+}
+
+// (2 pi/w) sum_k b_k (A w)^(2k) (2k-1)!!/(2k)!!: the energy a sine of motion loses; f drops out.
+TEST(LoopEnergy, IsThatOfTheClosedForm) {
+  const double edge = 6.283e-3 * std::numbers::pi / 180.0;
+  ModelSpec model{.f = law_spec("odd_polynomial", 3.5e-3, {}, {4.8, 11.8}),
+                  .g_inverse = law_spec("odd_polynomial", edge, {}, table_one_damping()),
+                  .h = unity(),
+                  .effects = {}};
+  double worst = 0.0;
+  for (double amplitude : {1e-3, 2e-3, 3.4907e-3, 5e-3}) {
+    for (double frequency : {1e-3, 2.5e-3, 5e-3, 7e-3}) {
+      constexpr int kSamples = 256;
+      const double w = 2.0 * std::numbers::pi * frequency;
+      Motion motion;
+      for (int i = 0; i < kSamples; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kSamples;
+        motion.time.push_back(angle / w);
+        motion.position.push_back(amplitude * std::sin(angle));
+        motion.velocity.push_back(amplitude * w * std::cos(angle));
+        motion.acceleration.push_back(-amplitude * w * w * std::sin(angle));
+      }
+      const auto torque = simulate_torque(model, motion);
+      ASSERT_TRUE(torque);
+      double energy = 0.0;
+      double size = 0.0;
+      double closed = 0.0;
+      for (std::size_t i = 0; i < torque->size(); ++i) {
+        const double power = (*torque)[i] * motion.velocity[i] * 2.0 * std::numbers::pi / w;
+        energy += power / kSamples;
+        size += std::abs(power) / kSamples;
+      }
+      double factor = 1.0;
+      for (std::size_t k = 1; k <= 5; ++k) {
+        factor *= static_cast<double>(2 * k - 1) / static_cast<double>(2 * k);
+        closed += model.g_inverse.coefficients[k - 1] * std::pow(amplitude * w / edge, 2.0 * static_cast<double>(k) - 1.0) *
+                  amplitude * w * factor;
+      }
+      closed *= 2.0 * std::numbers::pi / w;
+      worst = std::max(worst, std::abs(energy - closed) / size);
+      EXPECT_NEAR(energy, closed, 1e-10 * size) << amplitude << " rad, " << frequency << " Hz";
+    }
+  }
+  std::printf("loop energy against the closed form: %.2e\n", worst);
+}
+
+/// Analytic torque that moves a specimen along A sin wt + B sin 3wt.
+struct Imposed {
+  ModelSpec model;
+  double amplitude;
+  double w;
+  double motion(double t) const {
+    return amplitude * (std::sin(w * t) + 0.2 * std::sin(3.0 * w * t));
+  }
+  double speed(double t) const {
+    return amplitude * w * (std::cos(w * t) + 0.6 * std::cos(3.0 * w * t));
+  }
+  Signal torque() const {
+    const auto f = std::shared_ptr<Law>(make_law(model.f).value());
+    const auto g_inverse = std::shared_ptr<Law>(make_law(model.g_inverse).value());
+    const auto h = std::shared_ptr<Law>(make_law(model.h).value());
+    return {[=, self = *this](double t) {
+              const double phi = self.motion(t);
+              return f->value(phi) + g_inverse->value(self.speed(t) / h->value(phi));
+            },
+            {}};
+  }
+};
+
+TEST(Specimen, GivesBackTheMotionThatMadeTheTorque) {
+  DriveSpec drive = example_drive();
+  drive.gear_ratio = 1.0;
+  const Imposed imposed{drive.torsion, 2e-3, 2.0 * std::numbers::pi};
+  const auto rig = made_rig(Rig::specimen, drive,
+                            {{{Quantity::transmitted_torque, imposed.torque()}}, {}});
+  const auto times = instants(3.0, 300);
+  const auto y = simulated(*rig, rig->parameter_vector(), times, rig->rest(), 1e-11, 1e-14);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    worst = std::max(worst, std::abs(y[i] - imposed.motion(times[i])));
+  }
+  std::printf("specimen, there and back: %.2e of the range\n", worst / 2e-3);
+  EXPECT_LT(worst, 1e-8 * 2e-3);
+}
+
+// With memory: torque along finely sampled motion and back.
+double round_trip(std::vector<EffectSpec> effects, int per_cycle) {
+  ModelSpec model = example_drive().torsion;
+  model.effects = std::move(effects);
+  Motion motion = harmonic_motion({2e-3}, per_cycle, 2);
+  for (double& x : motion.position) x -= 2e-3;  // starts at zero, unloaded
+  const auto torque = simulate_torque(model, motion);
+  EXPECT_TRUE(torque) << torque.error().message();
+  const auto torsion = simulate_torsion(model, motion.time, *torque, 0.0, {1e-9, 1e-9, 5000000});
+  EXPECT_TRUE(torsion) << torsion.error().message();
+  if (!torsion) return std::nan("");
+  double worst = 0.0;
+  for (std::size_t i = 0; i < torsion->size(); ++i) {
+    worst = std::max(worst, std::abs((*torsion)[i] - motion.position[i]));
+  }
+  return worst / 2e-3;
+}
+
+TEST(Specimen, IsDrivenByTorqueWithItsMemory) {
+  const std::vector<std::pair<std::string, std::vector<EffectSpec>>> cases = {
+      {"presliding",
+       {{"presliding_hysteresis",
+         {{"stiffness", 2000.0}, {"yield", 3e-4}, {"stiffness", 1000.0}, {"yield", 1e-3}}}}},
+      {"bouc_wen",
+       {{"bouc_wen", {{"height", 4.5}, {"slip_length", 3e-4}, {"exponent", 1.0}}}}},
+      {"creep",
+       {{"viscoelastic_creep", {{"stiffness", 4500.0}, {"time_constant", 0.3}}}}},
+      {"offset", {{"torque_sensor_offset", {{"offset", 0.5}}}}}};
+  for (const auto& [name, effects] : cases) {
+    const double error = round_trip(effects, 4000);
+    std::printf("there and back with %s: %.2e of the range\n", name.c_str(), error);
+    EXPECT_LT(error, 1e-5) << name;
+  }
+}
+
+// Inertia and the reduced form differ by what the inertia takes: nothing at slow excitation.
+TEST(LockedRig, ApproachesTheReducedFormWhenSlow) {
+  const DriveSpec drive = example_drive();
+  double last = 1.0;
+  for (double frequency : {2.0, 0.2, 0.02}) {
+    const RigInputs inputs{{{Quantity::motor_torque, sine(0.6, frequency)}}, {}};
+    const auto full = made_rig(Rig::locked, drive, inputs);
+    const auto reduced = made_rig(Rig::locked, drive, inputs, "reduced");
+    const auto times = instants(2.0 / frequency, 100);
+    const auto y = simulated(*full, full->parameter_vector(), times, full->rest(), 1e-10, 1e-12);
+    const auto z =
+        simulated(*reduced, reduced->parameter_vector(), times, reduced->rest(), 1e-10, 1e-12);
+    double worst = 0.0;
+    double range = 0.0;
+    for (std::size_t i = 10; i < times.size(); ++i) {
+      worst = std::max(worst, std::abs(y[2 * i] - z[i]));
+      range = std::max(range, std::abs(z[i]));
+    }
+    std::printf("locked against reduced at %g Hz: %.2e\n", frequency, worst / range);
+    EXPECT_LT(worst / range, 0.2 * last);
+    last = worst / range;
+  }
+  EXPECT_LT(last, 1e-5);
+}
+
+TEST(LockedRig, HoldsTheReferenceOfThePapersExperiment) {
+  const DriveSpec drive = example_drive();
+  const auto rig = made_rig(Rig::locked, drive,
+                            {{{Quantity::commanded_angle, sine(0.1745, 0.05)}}, {}},
+                            "position_loop");
+  const auto times = instants(40.0, 200);
+  const auto y = simulated(*rig, rig->parameter_vector(), times, rig->rest(), 1e-8, 1e-10);
+  for (std::size_t i = 20; i < times.size(); ++i) {
+    const double wanted = 0.1745 * std::sin(2.0 * std::numbers::pi * 0.05 * times[i]);
+    EXPECT_NEAR(y[3 * i], wanted, 0.02) << times[i];
+  }
+}
+
+// Eq. (11) at one state, by hand.
+TEST(LockedRig, ObeysItsEquation) {
+  const DriveSpec drive = example_drive();
+  const auto rig = made_rig(Rig::locked, drive,
+                            {{{Quantity::motor_torque, constant(0.3)}}, {}});
+  const double angle = 0.05;
+  const double speed = 0.7;
+  const auto x = rig->instant(0.0, std::vector<double>{angle, speed}, rig->parameter_vector());
+  const double phi = angle / 50.0;
+  const double rate = speed / 50.0;
+  const double u = phi / 2e-3;
+  const double h = std::exp(1.5 * std::tanh((0.1 * u + 0.2 * u * u) / 1.5));
+  const double v = rate / h / 0.05;
+  const double tau = 24.0 * u + 6.0 * u * u * u + 3.0 * v + v * v * v;
+  EXPECT_NEAR(x.transmitted_torque, tau, 1e-12);
+  const double left = reflected_torque(drive, 0.3, speed) - reflected_viscous(drive) * rate - tau;
+  EXPECT_NEAR(reflected_inertia(drive) * x.torsion_acceleration, left, 1e-12);
+}
+
+std::string refusal(Rig rig, const DriveSpec& drive, const RigInputs& inputs,
+                    std::string_view form = {}) {
+  const auto system = make_rig(rig, drive, inputs, form);
+  return system ? std::string() : system.error().message();
+}
+
+TEST(Rigs, RefuseWhatTheyCannotSimulate) {
+  const RigInputs driven{{{Quantity::motor_torque, constant(0.0)}}, {}};
+  DriveSpec drive = example_drive();
+  EXPECT_THAT(refusal(Rig::free, drive, {}), testing::HasSubstr("no motor_torque"));
+  EXPECT_THAT(refusal(Rig::free, drive, driven, "upside_down"), testing::HasSubstr("upside_down"));
+  drive.load_inertia = 0.0;
+  EXPECT_THAT(refusal(Rig::free, drive, driven), testing::HasSubstr("load_inertia is 0"));
+  EXPECT_EQ(refusal(Rig::locked, drive, driven), "");
+  drive.torsion.effects = {{"series_compliance", {{"compliance", 1e-5}}}};
+  EXPECT_THAT(refusal(Rig::locked, drive, driven), testing::HasSubstr("transmitted torque"));
+  drive.torsion.effects = {{"inertia_torque", {{"inertia", 1.0}}}};
+  EXPECT_THAT(refusal(Rig::specimen, drive, {{{Quantity::torque, constant(0.0)}}, {}}),
+              testing::HasSubstr("acceleration"));
+}
+
+TEST(Rigs, SayWhatTheyAre) {
+  ASSERT_EQ(rigs().size(), 4u);
+  for (const RigRow& row : rigs()) {
+    EXPECT_EQ(row.id, name_of(row.rig));
+    for (std::string_view text : {row.says, row.equations, row.not_modelled}) {
+      EXPECT_FALSE(text.empty()) << row.id;
+    }
+    EXPECT_FALSE(row.outputs.empty());
+    EXPECT_FALSE(row.residuals.empty());
+    for (const RigForm& form : row.forms) {
+      EXPECT_FALSE(form.says.empty());
+      EXPECT_FALSE(form.inputs.empty());
+    }
+  }
+}
+
+TEST(DriveSpecs, GiveAndTakeTheirParametersInOneOrder) {
+  DriveSpec drive = example_drive();
+  drive.torsion.effects = {
+      {"presliding_hysteresis",
+       {{"stiffness", 2000.0}, {"yield", 3e-4}, {"stiffness", 1000.0}, {"yield", 1e-3}}}};
+  const auto& constants = rig_row(Rig::free).constants;
+  auto list = parameters_of(drive, constants);
+  EXPECT_EQ(list[0].name, "f[0]");
+  EXPECT_EQ(list.back().name, "presliding_hysteresis[1].yield");
+  EXPECT_EQ(list.back().unit, "rad");
+  std::vector<double> values;
+  for (const auto& one : list) values.push_back(one.value + 1.0);
+  const DriveSpec other = with_parameters(drive, constants, values);
+  EXPECT_EQ(other.torsion.f.coefficients[0], drive.torsion.f.coefficients[0] + 1.0);
+  EXPECT_EQ(other.motor_inertia, drive.motor_inertia + 1.0);
+  list = parameters_of(other, constants);
+  for (std::size_t k = 0; k < list.size(); ++k) EXPECT_EQ(list[k].value, values[k]) << list[k].name;
+}
+
+}  // namespace
+}  // namespace flexspline
