@@ -71,7 +71,9 @@ ceres::Solver::Options solver_options(const SolverSettings& settings) {
   options.max_num_iterations = settings.max_iterations;
   options.function_tolerance = settings.function_tolerance;
   options.parameter_tolerance = settings.parameter_tolerance;
-  options.gradient_tolerance = 1e-14;
+  options.gradient_tolerance = settings.gradient_tolerance;
+  options.initial_trust_region_radius = settings.trust_radius;
+  options.min_lm_diagonal = settings.damping_floor;
   options.num_threads = settings.threads;
   options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;

@@ -33,11 +33,22 @@ class LeastSquaresProblem {
                                 std::span<double> residual, std::span<double> jacobian) const = 0;
 };
 
+/// What Ipopt takes for second derivatives: J'J of the exact Jacobian, or what it gathers on its
+/// way.
+enum class Curvature { gauss_newton, limited_memory };
+
 struct SolverSettings {
   int max_iterations = 60;
-  double function_tolerance = 1e-7;
-  double parameter_tolerance = 1e-9;
-  int threads = 1;
+  double function_tolerance = 1e-7;   ///< relative fall of the cost that ends the fit
+  double parameter_tolerance = 1e-9;  ///< relative step that ends the fit; Ceres alone
+  /// Largest entry of J'r, in scaled parameters, that ends the fit; in Ipopt over the start's cost.
+  double gradient_tolerance = 1e-14;
+  double trust_radius = 1e4;  ///< of the first step: 1/Levenberg-Marquardt's damping
+  /// Least damping of a parameter as a share of what its derivatives at the start ask for. 1 keeps
+  /// parameters that lose their effect on the way from running off to a plateau.
+  double damping_floor = 1e-6;
+  int threads = 1;                                ///< for the blocks; Ceres alone
+  Curvature curvature = Curvature::gauss_newton;  ///< Ipopt alone
 };
 
 struct LeastSquaresSolution {
@@ -54,6 +65,20 @@ struct LeastSquaresSolution {
 Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
                                       std::span<const BoundedParameter> parameters,
                                       const SolverSettings& settings);
+
+/// The same by the interior-point method of Ipopt, with a line search on the cost over its value at
+/// the start and damped as Levenberg and Marquardt do (damping.hpp). One solve at a time in the
+/// process (ipopt_session.hpp); blocks one by one. no_progress: rounding hid the way down.
+/// Errors: numerics, with the block's reason or the parameters that gave no numbers.
+Result<LeastSquaresSolution> minimise_ipopt(const LeastSquaresProblem& problem,
+                                            std::span<const BoundedParameter> parameters,
+                                            const SolverSettings& settings);
+
+/// The error of residuals that are no numbers, with the parameters they came from.
+Error not_a_number(std::span<const double> p);
+
+/// Errors: numerics, with the parameters, where a block fails or a residual is no number.
+Result<double> half_sum_of_squares(const LeastSquaresProblem& problem, std::span<const double> p);
 
 /// Residuals and Jacobian of all blocks, one below the other, at p.
 struct Linearisation {

@@ -1,6 +1,34 @@
+#include <cmath>
+
+#include <fmt/ranges.h>
+
 #include "solvers/least_squares.hpp"
 
 namespace flexspline::estimators {
+
+Error not_a_number(std::span<const double> p) {
+  return Error{
+      ErrorCode::numerics,
+      fmt::format("the residuals at the parameters ({:.6g}) are no numbers", fmt::join(p, ", ")),
+      "start nearer, or bound the parameters",
+      {}};
+}
+
+Result<double> half_sum_of_squares(const LeastSquaresProblem& problem, std::span<const double> p) {
+  double cost = 0.0;
+  std::vector<double> residual;
+  for (std::size_t b = 0; b < problem.blocks(); ++b) {
+    residual.resize(problem.residuals(b));
+    const auto done = problem.evaluate(b, p, residual, {});
+    if (!done) {
+      return tl::unexpected(
+          in_context(done.error(), fmt::format("parameters ({:.6g})", fmt::join(p, ", "))));
+    }
+    for (double r : residual) cost += 0.5 * r * r;
+  }
+  if (!std::isfinite(cost)) return tl::unexpected(not_a_number(p));
+  return cost;
+}
 
 Result<Linearisation> linearise(const LeastSquaresProblem& problem, std::span<const double> p) {
   Eigen::Index rows = 0;
