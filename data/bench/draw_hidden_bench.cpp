@@ -46,9 +46,9 @@ std::vector<HiddenExcitation> load_design(std::uint64_t seed, const HiddenGear& 
   }
   for (const double share : {0.3, 1.0}) add(HiddenMotion::sine, wide / 2, rate_for(wide / 2, share), 3);
   add(HiddenMotion::sine, wide / 4, rate_for(wide / 4, 0.8), 3);
-  add(HiddenMotion::multisine, wide / 2, 0.3 * rate_for(wide / 2, 0.5), 2);
-  add(HiddenMotion::multisine, wide / 4, 0.3 * rate_for(wide / 4, 0.7), 2);
-  add(HiddenMotion::staircase, wide, 0.2 * rate_for(wide, 0.2), 1);
+  add(HiddenMotion::multisine, wide / 2, 0.18 * rate_for(wide / 2, 0.5), 2);
+  add(HiddenMotion::multisine, wide / 4, 0.18 * rate_for(wide / 4, 0.7), 2);
+  add(HiddenMotion::staircase, wide, 0.1 * rate_for(wide, 0.2), 1);
   return design;
 }
 

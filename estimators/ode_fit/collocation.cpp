@@ -12,6 +12,9 @@ namespace {
 
 constexpr int kMeshes = 6;
 constexpr double kMostParts = 8.0;
+constexpr std::size_t kMostGrowth = 32;  // of the first mesh, beyond kFreeElements
+constexpr std::size_t kFreeElements = 1000;
+constexpr long kMostStepsInElement = 5000;
 constexpr double kWarmBarrier = 1e-6;
 
 std::vector<NodeStates> guessed(const OdeLayout& layout, const std::vector<Mesh>& meshes) {
@@ -33,8 +36,9 @@ std::vector<NodeStates> guessed(const OdeLayout& layout, const std::vector<Mesh>
 double element_error(const OdeLayout& layout, std::span<const double> p, const Mesh& mesh,
                      const NodeStates& states, std::size_t element, double tolerance) {
   const double times[] = {mesh.ends[element], mesh.ends[element + 1]};
-  const auto exact = integrate_system(*layout.system, p, times, states.start_of(element),
-                                      layout.integration(tolerance));
+  SystemSettings settings = layout.integration(tolerance);
+  settings.max_steps = kMostStepsInElement;
+  const auto exact = integrate_system(*layout.system, p, times, states.start_of(element), settings);
   if (!exact) return std::numeric_limits<double>::infinity();
   const auto end = states.at(element, kStages - 1);
   double error = 0.0;
@@ -80,6 +84,12 @@ double refine(const OdeLayout& layout, std::span<const double> q, double toleran
   return error;
 }
 
+std::size_t count(const std::vector<Mesh>& meshes) {
+  std::size_t elements = 0;
+  for (const Mesh& mesh : meshes) elements += mesh.elements();
+  return elements;
+}
+
 void take(OdeSolution& solution, const NlpSolution& found) {
   solution.cost = found.objective;
   solution.termination = found.termination;
@@ -100,6 +110,7 @@ Result<OdeSolution> collocation(const OdeLayout& layout, const OdeFitSettings& s
   std::vector<Mesh> meshes;
   for (const auto& experiment : layout.experiments) meshes.push_back(first_mesh(experiment));
   std::vector<NodeStates> states = guessed(layout, meshes);
+  const std::size_t most = kFreeElements + kMostGrowth * count(meshes);
   OdeSolution solution{.q = layout.start()};
   NlpSettings nlp_settings{.max_iterations = settings.max_iterations};
   nlp_settings.objective_scale = 1.0 / std::max(cost_of_nothing(layout), 1e-300);
@@ -116,7 +127,11 @@ Result<OdeSolution> collocation(const OdeLayout& layout, const OdeFitSettings& s
     states = nlp.node_states(found->x);
     solution.gap = refine(layout, solution.q, settings.mesh_tolerance, meshes, states);
     if (solution.gap <= settings.mesh_tolerance) return solution;
+    if (found->termination != Termination::converged || count(meshes) > most) break;
     nlp_settings.barrier_start = kWarmBarrier;
+  }
+  if (solution.termination == Termination::converged) {
+    solution.termination = Termination::no_progress;
   }
   solution.notes.push_back(fmt::format("the mesh of {} elements is still off by {:.1g}",
                                        solution.elements, solution.gap));

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "ode_fit/methods.hpp"
 #include "ode_fit/shooting_problem.hpp"
 
@@ -5,11 +7,24 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kWeights[] = {10.0, 100.0, 1000.0};
-constexpr int kPasses = 12;
-constexpr double kClosed = 1e-9;  // jump, in state scales, that counts as none
+constexpr std::size_t kPasses = 12;
+constexpr double kNoJump = 1e-10;    // in state scales
+constexpr double kSmallJump = 1e-6;  // the same, if closing it does not change the cost
+constexpr double kNoChange = 1e-7;   // of the cost, relative
 
 SolverSettings solver_settings(const OdeFitSettings& settings) {
   return {settings.max_iterations, 1e-13, 1e-13, 1};
+}
+
+// Early passes need not settle, for their jumps are not the last.
+SolverSettings pass_settings(const OdeFitSettings& settings, std::size_t pass) {
+  SolverSettings result = solver_settings(settings);
+  if (pass + 1 < std::size(kWeights)) result.function_tolerance = 1e-6;
+  return result;
+}
+
+bool is_closed(const Jumps& jumps, double cost) {
+  return jumps.largest < kNoJump || (jumps.largest < kSmallJump && jumps.worth < kNoChange * cost);
 }
 
 void take(OdeSolution& solution, const LeastSquaresSolution& found) {
@@ -39,22 +54,21 @@ Result<OdeSolution> multiple_shooting(const OdeLayout& layout, const OdeFitSetti
   auto parameters = problem.bounded_parameters();
   OdeSolution solution;
   solution.elements = problem.blocks();
-  for (int pass = 0; pass < kPasses; ++pass) {
-    problem.set_weight(
-        kWeights[std::min<std::size_t>(static_cast<std::size_t>(pass), std::size(kWeights) - 1)]);
-    auto found = minimise(problem, parameters, solver_settings(settings));
-    if (!found) return tl::unexpected(std::move(found).error());
+  bool closed = false;
+  for (std::size_t pass = 0; pass < kPasses && !closed; ++pass) {
+    problem.set_weight(kWeights[std::min(pass, std::size(kWeights) - 1)]);
+    const auto found = minimise(problem, parameters, pass_settings(settings, pass));
+    if (!found) return tl::unexpected(found.error());
     take(solution, *found);
     for (std::size_t k = 0; k < parameters.size(); ++k) parameters[k].start = found->p[k];
-    const auto jump = problem.update_multipliers(found->p);
-    if (!jump) return tl::unexpected(jump.error());
-    solution.gap = *jump;
-    if (*jump < kClosed) break;
+    const auto jumps = problem.update_multipliers(found->p);
+    const auto cost = problem.data_cost(found->p);
+    if (!jumps || !cost) return tl::unexpected(jumps ? cost.error() : jumps.error());
+    solution.gap = jumps->largest;
+    solution.cost = *cost;
+    closed = is_closed(*jumps, *cost) && pass + 1 >= std::size(kWeights);
   }
-  const auto cost = problem.data_cost(solution.q);
-  if (!cost) return tl::unexpected(cost.error());
-  solution.cost = *cost;
-  if (solution.gap >= kClosed) solution.termination = Termination::no_progress;
+  if (!closed) solution.termination = Termination::no_progress;
   solution.q.resize(layout.unknowns.size());
   return solution;
 }

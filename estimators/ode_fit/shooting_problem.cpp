@@ -144,19 +144,20 @@ Result<std::vector<double>> ShootingProblem::values(const Segment& segment,
   return residual;
 }
 
-Result<double> ShootingProblem::update_multipliers(std::span<const double> q) {
-  double largest = 0.0;
+Result<Jumps> ShootingProblem::update_multipliers(std::span<const double> q) {
+  Jumps jumps;
   for (auto& segment : segments_) {
-    auto residual = values(segment, q);
-    if (!residual) return tl::unexpected(std::move(residual).error());
+    const auto residual = values(segment, q);
+    if (!residual) return tl::unexpected(residual.error());
     for (std::size_t i = 0; i < segment.multiplier.size(); ++i) {
       const double total = (*residual)[segment.data() + i];
-      const double jump = (total - segment.multiplier[i]) / (weight_ * segment.size);
-      largest = std::max(largest, std::abs(jump));
+      const double jump = total - segment.multiplier[i];
+      jumps.largest = std::max(jumps.largest, std::abs(jump) / (weight_ * segment.size));
+      jumps.worth += std::abs(jump * total);
       segment.multiplier[i] = total;
     }
   }
-  return largest;
+  return jumps;
 }
 
 Result<double> ShootingProblem::data_cost(std::span<const double> q) const {

@@ -6,6 +6,12 @@
 
 namespace flexspline::estimators {
 
+/// What is left of the jumps at nodes.
+struct Jumps {
+  double largest = 0.0;  ///< in state scales
+  double worth = 0.0;    ///< what closing them changes the cost by, to first order
+};
+
 /// Residuals of the measurements along trajectories that start at the initial state and, with
 /// several segments, at nodes. A node's states are unknowns behind those of the layout; a jump at a
 /// node is a residual weight * jump / state_scale + multiplier.
@@ -23,8 +29,8 @@ class ShootingProblem final : public LeastSquaresProblem {
   std::size_t nodes() const { return nodes_; }
 
   void set_weight(double weight);
-  /// Takes the jumps' share into the multipliers. Returns the largest jump in state scales.
-  Result<double> update_multipliers(std::span<const double> q);
+  /// Takes the jumps' share into the multipliers.
+  Result<Jumps> update_multipliers(std::span<const double> q);
   /// Half the sum of squares of the measurements' residuals alone.
   Result<double> data_cost(std::span<const double> q) const;
 

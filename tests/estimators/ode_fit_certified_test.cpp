@@ -1,5 +1,6 @@
 // Published estimation problems: every method at the certified optimum.
 #include <cmath>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -83,8 +84,7 @@ TEST(CertifiedGasoil, HasThePublishedIntervals) {
       EXPECT_NEAR(p.value - p.ci95_lower, half_widths[k], 5.1e-5) << name_of(method);
     }
     const auto correlation = [&](int a, int b) {
-      return fit->covariance(a, b) /
-             std::sqrt(fit->covariance(a, a) * fit->covariance(b, b));
+      return fit->covariance(a, b) / std::sqrt(fit->covariance(a, a) * fit->covariance(b, b));
     };
     EXPECT_NEAR(correlation(0, 1), 0.786, 6e-4);
     EXPECT_NEAR(correlation(0, 2), -0.844, 6e-4);
@@ -102,6 +102,22 @@ TEST(CertifiedMethanol, KeepsTheRateOnItsBoundOutOfTheCovariance) {
     EXPECT_TRUE(std::isnan(fit->parameters[4].std));
     EXPECT_EQ(fit->covariance.row(4).norm(), 0.0);
     EXPECT_GT(fit->covariance(0, 0), 0.0);
+  }
+}
+
+// From rates of 0.5 single shooting ends in another minimum, with two rates on 0; states at nodes
+// and the trajectory as unknowns start from the samples and end at the certified one.
+TEST(CertifiedLotkaVolterra, IsFoundFromAfarByWhatStartsFromTheSamples) {
+  const auto& row = certified("lotka_volterra");
+  auto problem = row.problem;
+  for (auto& rate : problem.parameters) rate.start = 0.5;
+  const auto single = fit_ode(problem, OdeFitMethod::single_shooting);
+  ASSERT_TRUE(single) << single.error().message();
+  EXPECT_GT(single->cost, 100.0 * row.sum_of_squares);
+  for (const auto method : {OdeFitMethod::multiple_shooting, OdeFitMethod::collocation}) {
+    const auto fit = fit_ode(problem, method);
+    ASSERT_TRUE(fit) << fit.error().message();
+    expect_certified(row, *fit);
   }
 }
 

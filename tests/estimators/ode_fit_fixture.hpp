@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "flexspline/core/twice_ode_system.hpp"
@@ -21,8 +22,8 @@ class Decay final : public OdeLaw<Decay> {
 /// Exact values of 2 exp(-0.7 t) at five instants after the start, disturbed by `noise` with
 /// alternating sign; y(0) is free.
 inline OdeFitProblem decay(double noise = 0.0) {
-  OdeFitProblem problem{.system = std::make_shared<Decay>(), .parameters = {}, .experiments = {},
-                        .state_scale = {}};
+  OdeFitProblem problem{
+      .system = std::make_shared<Decay>(), .parameters = {}, .experiments = {}, .state_scale = {}};
   OdeParameter rate{.name = "k", .start = 0.2};
   rate.lower = 0.0;
   problem.parameters = {rate};

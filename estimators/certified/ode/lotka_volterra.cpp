@@ -40,7 +40,7 @@ CertifiedOde describe_lotka_volterra() {
   CertifiedOde row{.name = "lotka_volterra", .title = "Lotka-Volterra"};
   row.source = "data of Schittkowski (2002) as in PSOPT's example predator; optimum found independently";
   row.problem.system = std::make_shared<LotkaVolterra>();
-  row.problem.parameters = rates("theta", {0.5, 0.5, 0.5, 0.5}, "1");
+  row.problem.parameters = rates("theta", {0.8, 0.8, 0.8, 0.8}, "1");
   row.problem.experiments = {fully_observed("lotka_volterra", {0.4, 1.0}, kTimes, kMeasured)};
   row.sum_of_squares = 0.027536379089076045;
   row.parameters = {
