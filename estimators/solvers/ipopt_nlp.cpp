@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <coin/IpIpoptApplication.hpp>
-#include <coin/IpSolveStatistics.hpp>
 #include <coin/IpTNLP.hpp>
 
-#include "solvers/ipopt_lock.hpp"
+#include "solvers/ipopt_session.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -97,6 +95,13 @@ class Bridge final : public Ipopt::TNLP {
     for (Index k = 0; k < m; ++k) solution.violation = std::max(solution.violation, std::abs(c[k]));
   }
 
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number, Number,
+                             Number, Number, Number, Number, Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    solution.iterations = iteration;
+    return true;
+  }
+
   NlpSolution solution;
 
  private:
@@ -109,9 +114,6 @@ class Bridge final : public Ipopt::TNLP {
 // Scaling is ours. Debian's MUMPS needs the last two: with its defaults it regularises the dense
 // columns of parameters away, or spends minutes ordering them.
 void set_options(Ipopt::OptionsList& options, const NlpSettings& settings) {
-  options.SetStringValue("linear_solver", "mumps");
-  options.SetIntegerValue("print_level", 0);
-  options.SetStringValue("sb", "yes");
   options.SetNumericValue("tol", settings.tolerance);
   options.SetNumericValue("constr_viol_tol", settings.tolerance);
   options.SetNumericValue("compl_inf_tol", settings.tolerance);
@@ -121,8 +123,6 @@ void set_options(Ipopt::OptionsList& options, const NlpSettings& settings) {
   options.SetNumericValue("obj_scaling_factor", settings.objective_scale);
   options.SetNumericValue("bound_relax_factor", 0.0);
   options.SetNumericValue("mu_init", settings.barrier_start);
-  options.SetIntegerValue("mumps_permuting_scaling", 0);
-  options.SetIntegerValue("mumps_pivot_order", 6);
 }
 
 Termination termination_of(Ipopt::ApplicationReturnStatus status) {
@@ -139,53 +139,18 @@ Termination termination_of(Ipopt::ApplicationReturnStatus status) {
   }
 }
 
-std::string words_for(Ipopt::ApplicationReturnStatus status) {
-  switch (status) {
-    case Ipopt::Solve_Succeeded:
-      return "solved";
-    case Ipopt::Solved_To_Acceptable_Level:
-      return "solved to an acceptable level only";
-    case Ipopt::Infeasible_Problem_Detected:
-      return "converged to a point that violates the constraints";
-    case Ipopt::Search_Direction_Becomes_Too_Small:
-      return "steps too small to go on";
-    case Ipopt::Diverging_Iterates:
-      return "the iterates run away";
-    case Ipopt::Maximum_Iterations_Exceeded:
-      return "iteration limit";
-    case Ipopt::Restoration_Failed:
-      return "no way back to the constraints";
-    case Ipopt::Error_In_Step_Computation:
-      return "the linear system cannot be solved";
-    case Ipopt::Invalid_Number_Detected:
-      return "the functions cannot be evaluated";
-    case Ipopt::Not_Enough_Degrees_Of_Freedom:
-      return "more constraints than variables";
-    case Ipopt::Insufficient_Memory:
-      return "out of memory";
-    default:
-      return "status " + std::to_string(static_cast<int>(status)) + " of Ipopt";
-  }
-}
-
 }  // namespace
 
 Result<NlpSolution> minimise(const SparseNlp& nlp, std::span<const double> start,
                              const NlpSettings& settings) {
-  const std::lock_guard guard(ipopt_lock());
-  Ipopt::SmartPtr<Bridge> bridge = new Bridge(nlp, start);
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
-  set_options(*application->Options(), settings);
-  auto status = application->Initialize("");
-  if (status == Ipopt::Solve_Succeeded) {
-    Ipopt::SmartPtr<Ipopt::TNLP> problem = Ipopt::GetRawPtr(bridge);
-    status = application->OptimizeTNLP(problem);
-  }
+  const Ipopt::SmartPtr<Bridge> bridge = new Bridge(nlp, start);
+  const auto status = run_ipopt(Ipopt::GetRawPtr(bridge), [&](Ipopt::OptionsList& options) {
+    set_options(options, settings);
+  });
+  if (!status) return tl::unexpected(status.error());
   NlpSolution& solution = bridge->solution;
-  solution.termination = termination_of(status);
-  solution.status = words_for(status);
-  const auto statistics = application->Statistics();
-  if (IsValid(statistics)) solution.iterations = statistics->IterationCount();
+  solution.termination = termination_of(*status);
+  solution.status = words_of(*status);
   if (solution.termination == Termination::failed || solution.x.empty()) {
     return failure(ErrorCode::numerics, "Ipopt gave up: " + solution.status,
                    "start nearer, or widen what the bounds allow");
