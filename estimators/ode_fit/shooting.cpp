@@ -8,9 +8,11 @@ namespace {
 
 constexpr double kWeights[] = {10.0, 100.0, 1000.0};
 constexpr std::size_t kPasses = 12;
-constexpr double kNoJump = 1e-10;    // in state scales
-constexpr double kSmallJump = 1e-6;  // the same, if closing it does not change the cost
-constexpr double kNoChange = 1e-7;   // of the cost, relative
+constexpr double kNoJump = 1e-10;     // in state scales
+constexpr double kSmallJump = 1e-6;   // the same, if closing it does not change the cost
+constexpr double kNoChange = 1e-8;    // of the cost, relative
+constexpr double kNoise = 1e-7;       // the same, where the integrator's noise allows no better
+constexpr std::size_t kPatience = 5;  // passes before that counts
 
 SolverSettings solver_settings(const OdeFitSettings& settings) {
   return {settings.max_iterations, 1e-13, 1e-13, 1};
@@ -23,8 +25,10 @@ SolverSettings pass_settings(const OdeFitSettings& settings, std::size_t pass) {
   return result;
 }
 
-bool is_closed(const Jumps& jumps, double cost) {
-  return jumps.largest < kNoJump || (jumps.largest < kSmallJump && jumps.worth < kNoChange * cost);
+bool is_closed(const Jumps& jumps, double cost, std::size_t pass) {
+  if (pass + 1 < std::size(kWeights)) return false;
+  const double change = pass < kPatience ? kNoChange : kNoise;
+  return jumps.largest < kNoJump || (jumps.largest < kSmallJump && jumps.worth < change * cost);
 }
 
 void take(OdeSolution& solution, const LeastSquaresSolution& found) {
@@ -66,7 +70,7 @@ Result<OdeSolution> multiple_shooting(const OdeLayout& layout, const OdeFitSetti
     if (!jumps || !cost) return tl::unexpected(jumps ? cost.error() : jumps.error());
     solution.gap = jumps->largest;
     solution.cost = *cost;
-    closed = is_closed(*jumps, *cost) && pass + 1 >= std::size(kWeights);
+    closed = is_closed(*jumps, *cost, pass);
   }
   if (!closed) solution.termination = Termination::no_progress;
   solution.q.resize(layout.unknowns.size());

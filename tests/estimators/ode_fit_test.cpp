@@ -16,12 +16,12 @@ using ::testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-class EveryMethod : public ::testing::TestWithParam<OdeFitMethod> {};
+class EveryOdeMethod : public ::testing::TestWithParam<OdeFitMethod> {};
 
-INSTANTIATE_TEST_SUITE_P(OdeFit, EveryMethod, ::testing::ValuesIn(kOdeFitMethods),
+INSTANTIATE_TEST_SUITE_P(OdeFit, EveryOdeMethod, ::testing::ValuesIn(kOdeFitMethods),
                          [](const auto& each) { return std::string(name_of(each.param)); });
 
-TEST_P(EveryMethod, FindsTheTruthOfExactData) {
+TEST_P(EveryOdeMethod, FindsTheTruthOfExactData) {
   const auto fit = fit_ode(decay(), GetParam());
   ASSERT_TRUE(fit) << fit.error().message();
   EXPECT_EQ(fit->termination, Termination::converged);
@@ -35,7 +35,7 @@ TEST_P(EveryMethod, FindsTheTruthOfExactData) {
 
 // With J = [-t y / s, y / y0 / s] at the solution, the covariance is (J'J)^-1 times the variance
 // factor, and intervals are Student's on 5 - 2 degrees of freedom: t(0.975, 3) = 3.18245.
-TEST_P(EveryMethod, GivesTheCovarianceOfTheClosedForm) {
+TEST_P(EveryOdeMethod, GivesTheCovarianceOfTheClosedForm) {
   const auto problem = decay(0.02);
   const auto fit = fit_ode(problem, GetParam());
   ASSERT_TRUE(fit) << fit.error().message();
@@ -59,7 +59,7 @@ TEST_P(EveryMethod, GivesTheCovarianceOfTheClosedForm) {
   EXPECT_NEAR(fit->parameters[0].ci95_upper - k, half, 1e-5 * half);
 }
 
-TEST_P(EveryMethod, TakesTheNoiseAsKnownOnRequest) {
+TEST_P(EveryOdeMethod, TakesTheNoiseAsKnownOnRequest) {
   OdeFitSettings settings;
   settings.noise_known = true;
   const auto estimated = fit_ode(decay(0.02), GetParam());
@@ -71,7 +71,7 @@ TEST_P(EveryMethod, TakesTheNoiseAsKnownOnRequest) {
               1.959963985 * known->parameters[0].std, 1e-9);
 }
 
-TEST_P(EveryMethod, LeavesOutWhatIsMasked) {
+TEST_P(EveryOdeMethod, LeavesOutWhatIsMasked) {
   auto problem = decay();
   problem.experiments[0].measured[2] = kNaN;
   problem.experiments[0].mask = {true, true, false, true, true};
@@ -83,7 +83,7 @@ TEST_P(EveryMethod, LeavesOutWhatIsMasked) {
 
 // Two records of different known starts and one rate; the second is seen doubled, with an offset
 // start time.
-TEST_P(EveryMethod, SharesParametersBetweenExperiments) {
+TEST_P(EveryOdeMethod, SharesParametersBetweenExperiments) {
   auto problem = decay();
   problem.experiments[0].initial = {2.0};
   OdeExperiment second{.id = "second"};
@@ -104,7 +104,7 @@ TEST_P(EveryMethod, SharesParametersBetweenExperiments) {
 }
 
 // Data of a decay with k bounded above by 0.5 < 0.7: k ends on the bound, y(0) is then linear.
-TEST_P(EveryMethod, DropsActiveBoundsFromTheCovariance) {
+TEST_P(EveryOdeMethod, DropsActiveBoundsFromTheCovariance) {
   auto problem = decay(0.01);
   problem.parameters[0].upper = 0.5;
   const auto fit = fit_ode(problem, GetParam());
@@ -147,7 +147,7 @@ OdeFitProblem escape(double start, double truth) {
   return problem;
 }
 
-TEST_P(EveryMethod, TakesStepsBackThatCannotBeIntegrated) {
+TEST_P(EveryOdeMethod, TakesStepsBackThatCannotBeIntegrated) {
   const auto fit = fit_ode(escape(0.1, 0.9), GetParam());
   ASSERT_TRUE(fit) << fit.error().message();
   EXPECT_NEAR(fit->parameters[0].value, 0.9, 1e-6);
