@@ -42,8 +42,7 @@ Series motor_torque_of(const DriveSpec& drive, const Recording& recording,
     for (double i : *current) torque.push_back(drive.torque_constant * i);
   } else if (duty != nullptr && supply != nullptr && !channels.motor_speed.empty()) {
     for (std::size_t i = 0; i < duty->size(); ++i) {
-      const double volts =
-          (*duty)[i] * (*supply)[i] - drive.back_emf * channels.motor_speed[i];
+      const double volts = (*duty)[i] * (*supply)[i] - drive.back_emf * channels.motor_speed[i];
       torque.push_back(drive.torque_constant * volts / drive.resistance);
     }
   }
@@ -87,8 +86,8 @@ Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Reco
     follow_rigidly(drive.gear_ratio, c.load_speed, c.motor_speed);
     follow_rigidly(drive.gear_ratio, c.load_acceleration, c.motor_acceleration);
   }
-  const Series* effort = first_of(
-      recording, {Quantity::transmitted_torque, Quantity::torque, Quantity::force});
+  const Series* effort =
+      first_of(recording, {Quantity::transmitted_torque, Quantity::torque, Quantity::force});
   if (effort != nullptr) c.transmitted_torque = *effort;
   c.motor_torque = motor_torque_of(drive, recording, c);
   return c;

@@ -30,14 +30,13 @@ constexpr Dependence kUnknownToKinematics[] = {
 bool depends(const EffectRow& row, std::span<const double> values, const Dependence& on) {
   Instant<Complex> x;
   double next = 0.37;
-  for (auto member : {&Instant<Complex>::time, &Instant<Complex>::motor_angle,
-                      &Instant<Complex>::motor_speed, &Instant<Complex>::motor_acceleration,
-                      &Instant<Complex>::load_angle, &Instant<Complex>::load_speed,
-                      &Instant<Complex>::load_acceleration, &Instant<Complex>::torsion_rate,
-                      &Instant<Complex>::torsion_acceleration,
-                      &Instant<Complex>::transmitted_torque,
-                      &Instant<Complex>::transmitted_torque_rate,
-                      &Instant<Complex>::motor_torque, &Instant<Complex>::motor_torque_rate}) {
+  for (auto member :
+       {&Instant<Complex>::time, &Instant<Complex>::motor_angle, &Instant<Complex>::motor_speed,
+        &Instant<Complex>::motor_acceleration, &Instant<Complex>::load_angle,
+        &Instant<Complex>::load_speed, &Instant<Complex>::load_acceleration,
+        &Instant<Complex>::torsion_rate, &Instant<Complex>::torsion_acceleration,
+        &Instant<Complex>::transmitted_torque, &Instant<Complex>::transmitted_torque_rate,
+        &Instant<Complex>::motor_torque, &Instant<Complex>::motor_torque_rate}) {
     x.*member = Complex(next += 0.23);
   }
   x.torsion = 1e-3;
@@ -48,11 +47,12 @@ bool depends(const EffectRow& row, std::span<const double> values, const Depende
 }
 
 tl::unexpected<Error> refusal(const EffectRow& row, std::string_view needs) {
-  return failure(ErrorCode::bad_data,
-                 fmt::format("the effect {} cannot be simulated forward: it needs the {}, which the "
-                             "simulation does not know beforehand",
-                             row.id, needs),
-                 "simulate displacement-driven, or take the effect out of the model");
+  return failure(
+      ErrorCode::bad_data,
+      fmt::format("the effect {} cannot be simulated forward: it needs the {}, which the "
+                  "simulation does not know beforehand",
+                  row.id, needs),
+      "simulate displacement-driven, or take the effect out of the model");
 }
 
 Result<void> check(const EffectRow& row, std::span<const double> values) {

@@ -15,8 +15,8 @@ void append_law(std::vector<DriveParameter>& list, std::string_view name, const 
                 std::string_view unit) {
   for (std::size_t k = 0; k < law.coefficients.size(); ++k) {
     const bool exponent = law.law == "power_law" && k == 1;
-    list.push_back({fmt::format("{}[{}]", name, k), std::string(exponent ? "1" : unit),
-                    law.coefficients[k]});
+    list.push_back(
+        {fmt::format("{}[{}]", name, k), std::string(exponent ? "1" : unit), law.coefficients[k]});
   }
 }
 

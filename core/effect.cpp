@@ -42,8 +42,7 @@ Result<std::vector<double>> parameter_values(const EffectRow& row, const EffectS
   const std::size_t group = row.parameters.size();
   const std::size_t given = spec.parameters.size();
   if (given == 0 || (row.repeats ? given % group != 0 : given != group)) {
-    return failure(ErrorCode::bad_data,
-                   fmt::format("effect {} has {} parameters", row.id, given),
+    return failure(ErrorCode::bad_data, fmt::format("effect {} has {} parameters", row.id, given),
                    fmt::format("it takes {}{}", group, row.repeats ? " an element" : ""));
   }
   std::vector<double> values;

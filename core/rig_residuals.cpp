@@ -95,8 +95,8 @@ Result<Series> torsion_law_along(Rig rig, const DriveSpec& drive, const Path& ri
   if (!torque) return torque;
   for (std::size_t i = 0; i < path->size(); ++i) {
     const auto& x = (*path)[i];
-    (*torque)[i] += (*f)->value(x.torsion) +
-                    (*g_inverse)->value(x.torsion_rate / (*h)->value(x.torsion));
+    (*torque)[i] +=
+        (*f)->value(x.torsion) + (*g_inverse)->value(x.torsion_rate / (*h)->value(x.torsion));
   }
   return torque;
 }
@@ -147,14 +147,18 @@ EquationResidual absent_without(std::initializer_list<Needed> needs, bool exists
 }
 
 Result<void> same_lengths(const DriveChannels& c) {
-  const std::initializer_list<Needed> all = {
-      {&c.motor_angle, "motor_angle"}, {&c.motor_speed, "motor_speed"},
-      {&c.motor_acceleration, "motor_acceleration"}, {&c.load_angle, "load_angle"},
-      {&c.load_speed, "load_speed"}, {&c.load_acceleration, "load_acceleration"},
-      {&c.torsion, "torsion"}, {&c.torsion_rate, "torsion_rate"},
-      {&c.torsion_acceleration, "torsion_acceleration"},
-      {&c.transmitted_torque, "transmitted_torque"}, {&c.motor_torque, "motor_torque"},
-      {&c.load_torque, "load_torque"}};
+  const std::initializer_list<Needed> all = {{&c.motor_angle, "motor_angle"},
+                                             {&c.motor_speed, "motor_speed"},
+                                             {&c.motor_acceleration, "motor_acceleration"},
+                                             {&c.load_angle, "load_angle"},
+                                             {&c.load_speed, "load_speed"},
+                                             {&c.load_acceleration, "load_acceleration"},
+                                             {&c.torsion, "torsion"},
+                                             {&c.torsion_rate, "torsion_rate"},
+                                             {&c.torsion_acceleration, "torsion_acceleration"},
+                                             {&c.transmitted_torque, "transmitted_torque"},
+                                             {&c.motor_torque, "motor_torque"},
+                                             {&c.load_torque, "load_torque"}};
   for (const Needed& one : all) {
     if (one.series->empty() || one.series->size() == c.time.size()) continue;
     return failure(ErrorCode::bad_data,
@@ -184,7 +188,8 @@ DriveResiduals formable(Rig rig, const DriveChannels& c) {
   DriveResiduals r;
   r.motor = absent_without({torque, motor_torque, motion}, both || rig == Rig::locked, name);
   r.load = absent_without({torque, load_motion}, both, name);
-  r.torsion = absent_without({torque, motion, both ? load_motion : motion}, rig != Rig::servo, name);
+  r.torsion =
+      absent_without({torque, motion, both ? load_motion : motion}, rig != Rig::servo, name);
   r.drive = absent_without({motor_torque, motion, load_motion}, both || rig == Rig::servo, name);
   return r;
 }
@@ -204,8 +209,8 @@ Result<DriveResiduals> residuals(Rig rig, const DriveSpec& drive, const DriveCha
   const Series zero(path.size(), 0.0);
   if (r.motor.absent.empty()) {
     const Series given = difference(c.motor_torque, 1.0, *motor);
-    r.motor.value = difference(given, 1.0, difference(c.transmitted_torque, 1.0 / drive.gear_ratio,
-                                                      zero));
+    r.motor.value =
+        difference(given, 1.0, difference(c.transmitted_torque, 1.0 / drive.gear_ratio, zero));
   }
   if (r.load.absent.empty()) r.load.value = difference(c.transmitted_torque, 1.0, *load);
   if (r.torsion.absent.empty()) r.torsion.value = difference(c.transmitted_torque, 1.0, *law);

@@ -64,12 +64,14 @@ Result<std::unique_ptr<Law>> make(const LawSpec& spec) {
 }  // namespace
 
 LawRow describe_power_law() {
-  return {.id = "power_law",
-          .equation = "y = c |x/s|^n sgn x",
-          .range = "increasing everywhere for c > 0; n in [0.2, 5]; for n < 1 a straight line "
-                   "through zero below 1e-9 s",
-          .source = "Dhaouadi and Ghorbel (2003), Table I: g^-1 is 4.50 (v/v0)^1.79 Nm to 1.1 % rms",
-          .make = make};
+  return {
+      .id = "power_law",
+      .equation = "y = c |x/s|^n sgn x",
+      .range =
+          "increasing everywhere for c > 0; n in [0.2, 5]; for n < 1 a straight line "
+          "through zero below 1e-9 s",
+      .source = "Dhaouadi and Ghorbel (2003), Table I: g^-1 is 4.50 (v/v0)^1.79 Nm to 1.1 % rms",
+      .make = make};
 }
 
 }  // namespace flexspline

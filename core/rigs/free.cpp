@@ -59,8 +59,8 @@ struct FreeDrive {
 Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
                                         std::string_view name) {
   const RigRow& row = rig_row(Rig::free);
-  const auto form = checked_form(row, drive, inputs, name,
-                                 {"gear_ratio", "motor_inertia", "load_inertia"});
+  const auto form =
+      checked_form(row, drive, inputs, name, {"gear_ratio", "motor_inertia", "load_inertia"});
   if (!form) return tl::unexpected(form.error());
   auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
   if (!model) return tl::unexpected(model.error());
@@ -77,25 +77,28 @@ RigRow describe_free() {
                                            {"load_speed", "rad/s", "at the output"}};
   auto held = states;
   held.push_back({"loop_integral", "rad s", "int (r - theta_m) dt"});
-  return {
-      .id = "free",
-      .rig = Rig::free,
-      .says = "inertial load on the output, both encoders",
-      .equations = "J1 theta_m'' + B1 theta_m' + tau_f + tau/N = tau_m (5), "
-                   "J2 theta_l'' + B2 theta_l' + tau_L - tau = 0 (6), "
-                   "tau = g^-1(phi'/h) + f (7), phi = theta_m/N - theta_l (8)",
-      .not_modelled = "the torque tau dk/dtheta_m that a kinematic error k returns to the motor: "
-                      "eq. (5) has tau/N alone",
-      .forms = {{"motor_driven", "eqs. (5)-(8)", states, {Quantity::motor_torque}},
-                {"position_loop", "the motor held to commanded_angle", held,
-                 {Quantity::commanded_angle}}},
-      .constants = constants_named({"motor_inertia", "motor_viscous", "motor_coulomb",
-                                    "coulomb_width", "load_inertia", "load_viscous", "load_mass",
-                                    "arm_length"}),
-      .outputs = {Quantity::motor_angle, Quantity::load_angle, Quantity::transmitted_torque,
-                  Quantity::motor_torque},
-      .residuals = {"motor", "load", "torsion", "drive"},
-      .make = make};
+  return {.id = "free",
+          .rig = Rig::free,
+          .says = "inertial load on the output, both encoders",
+          .equations =
+              "J1 theta_m'' + B1 theta_m' + tau_f + tau/N = tau_m (5), "
+              "J2 theta_l'' + B2 theta_l' + tau_L - tau = 0 (6), "
+              "tau = g^-1(phi'/h) + f (7), phi = theta_m/N - theta_l (8)",
+          .not_modelled =
+              "the torque tau dk/dtheta_m that a kinematic error k returns to the motor: "
+              "eq. (5) has tau/N alone",
+          .forms = {{"motor_driven", "eqs. (5)-(8)", states, {Quantity::motor_torque}},
+                    {"position_loop",
+                     "the motor held to commanded_angle",
+                     held,
+                     {Quantity::commanded_angle}}},
+          .constants =
+              constants_named({"motor_inertia", "motor_viscous", "motor_coulomb", "coulomb_width",
+                               "load_inertia", "load_viscous", "load_mass", "arm_length"}),
+          .outputs = {Quantity::motor_angle, Quantity::load_angle, Quantity::transmitted_torque,
+                      Quantity::motor_torque},
+          .residuals = {"motor", "load", "torsion", "drive"},
+          .make = make};
 }
 
 }  // namespace flexspline

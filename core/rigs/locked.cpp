@@ -75,9 +75,8 @@ struct LockedDrive {
     Instant<Complex> z = start(t, Complex(real_part(y[0])));
     z.motor_torque = Complex(real_part(x.motor_torque));
     const double scale = model.drive().gear_ratio * model.drive().torsion.g_inverse.scale;
-    const S speed = implicit_root<S>(
-        [&](const Complex& v) { return -surplus(complex_at, z, v); },
-        [&](const S& v) { return S(-surplus(at, x, v)); }, scale);
+    const S speed = implicit_root<S>([&](const Complex& v) { return -surplus(complex_at, z, v); },
+                                     [&](const S& v) { return S(-surplus(at, x, v)); }, scale);
     surplus(at, x, speed);
     return x;
   }
@@ -87,9 +86,9 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
                                         std::string_view name) {
   const RigRow& row = rig_row(Rig::locked);
   const bool reduced = name == "reduced";
-  const auto form = reduced ? checked_form(row, drive, inputs, name, {"gear_ratio"})
-                            : checked_form(row, drive, inputs, name,
-                                           {"gear_ratio", "motor_inertia"});
+  const auto form = reduced
+                        ? checked_form(row, drive, inputs, name, {"gear_ratio"})
+                        : checked_form(row, drive, inputs, name, {"gear_ratio", "motor_inertia"});
   if (!form) return tl::unexpected(form.error());
   auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
   if (!model) return tl::unexpected(model.error());
@@ -102,24 +101,24 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
 RigRow describe_locked() {
   const RigVariable angle{"motor_angle", "rad", "theta_m = N phi"};
   const RigVariable speed{"motor_speed", "rad/s", "at the motor"};
-  return {
-      .id = "locked",
-      .rig = Rig::locked,
-      .says = "output locked, motor position-controlled: the paper's bench",
-      .equations = "J phi'' + B phi' + tau(phi', phi) = tau_n, phi = theta_m/N, J = N^2 J1, "
-                   "B = N^2 B1, tau_n = N (tau_m - tau_f), eqs. (9)-(14)",
-      .not_modelled = "give of the lock, but for series_compliance as an effect",
-      .forms = {{"inertial", "eq. (11)", {angle, speed}, {Quantity::motor_torque}},
-                {"reduced", "eq. (3): inertia dropped", {angle}, {Quantity::motor_torque}},
-                {"position_loop",
-                 "the motor held to commanded_angle",
-                 {angle, speed, {"loop_integral", "rad s", "int (r - theta_m) dt"}},
-                 {Quantity::commanded_angle}}},
-      .constants = constants_named({"motor_inertia", "motor_viscous", "motor_coulomb",
-                                    "coulomb_width"}),
-      .outputs = {Quantity::motor_angle, Quantity::transmitted_torque, Quantity::motor_torque},
-      .residuals = {"motor", "torsion"},
-      .make = make};
+  return {.id = "locked",
+          .rig = Rig::locked,
+          .says = "output locked, motor position-controlled: the paper's bench",
+          .equations =
+              "J phi'' + B phi' + tau(phi', phi) = tau_n, phi = theta_m/N, J = N^2 J1, "
+              "B = N^2 B1, tau_n = N (tau_m - tau_f), eqs. (9)-(14)",
+          .not_modelled = "give of the lock, but for series_compliance as an effect",
+          .forms = {{"inertial", "eq. (11)", {angle, speed}, {Quantity::motor_torque}},
+                    {"reduced", "eq. (3): inertia dropped", {angle}, {Quantity::motor_torque}},
+                    {"position_loop",
+                     "the motor held to commanded_angle",
+                     {angle, speed, {"loop_integral", "rad s", "int (r - theta_m) dt"}},
+                     {Quantity::commanded_angle}}},
+          .constants =
+              constants_named({"motor_inertia", "motor_viscous", "motor_coulomb", "coulomb_width"}),
+          .outputs = {Quantity::motor_angle, Quantity::transmitted_torque, Quantity::motor_torque},
+          .residuals = {"motor", "torsion"},
+          .make = make};
 }
 
 }  // namespace flexspline

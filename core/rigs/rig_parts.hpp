@@ -55,7 +55,8 @@ std::vector<Complex> real_parts(std::span<const S> values) {
 }
 
 /// A rig's system from its law: a struct with model, inputs, variables and
-///   template <class S> Instant<S> rates(double t, span<const S> y, span<const S> p, span<S>) const.
+///   template <class S> Instant<S> rates(double t, span<const S> y, span<const S> p, span<S>)
+///   const.
 template <class RigLaw>
 class RigSystemOf final : public RigSystem {
  public:
@@ -81,8 +82,7 @@ class RigSystemOf final : public RigSystem {
     std::vector<double> ydot(states());
     return law_.template rates<double>(t, y, p, ydot);
   }
-  Instant<Dual> instant(double t, std::span<const Dual> y,
-                        std::span<const Dual> p) const override {
+  Instant<Dual> instant(double t, std::span<const Dual> y, std::span<const Dual> p) const override {
     std::vector<Dual> ydot(states());
     return law_.template rates<Dual>(t, y, p, ydot);
   }

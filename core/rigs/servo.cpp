@@ -8,8 +8,8 @@ namespace {
 
 enum class Feed { torque, current, voltage, winding };
 
-// States theta, omega at the output (, current). The transmission is rigid; effects there oppose the
-// motion of the output, which is its torsion.
+// States theta, omega at the output (, current). The transmission is rigid; effects there oppose
+// the motion of the output, which is its torsion.
 struct ServoDrive {
   DriveModel model;
   RigInputs inputs;
@@ -123,12 +123,11 @@ constexpr std::pair<std::string_view, Feed> kFeeds[] = {{"torque_driven", Feed::
 Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
                                         std::string_view name) {
   const RigRow& row = rig_row(Rig::servo);
-  const auto form =
-      name == "winding"
-          ? checked_form(row, drive, inputs, name, {"gear_ratio", "resistance", "inductance"})
-      : name == "voltage_driven"
-          ? checked_form(row, drive, inputs, name, {"gear_ratio", "resistance"})
-          : checked_form(row, drive, inputs, name, {"gear_ratio"});
+  const auto form = name == "winding" ? checked_form(row, drive, inputs, name,
+                                                     {"gear_ratio", "resistance", "inductance"})
+                    : name == "voltage_driven"
+                        ? checked_form(row, drive, inputs, name, {"gear_ratio", "resistance"})
+                        : checked_form(row, drive, inputs, name, {"gear_ratio"});
   if (!form) return tl::unexpected(form.error());
   if (!(reflected_inertia(drive) + drive.load_inertia > 0.0)) {
     return failure(ErrorCode::bad_data, "servo: neither motor_inertia nor load_inertia is positive",
@@ -136,7 +135,8 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   }
   auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
   if (!model) return tl::unexpected(model.error());
-  const auto* feed = std::ranges::find(kFeeds, (*form)->id, &std::pair<std::string_view, Feed>::first);
+  const auto* feed =
+      std::ranges::find(kFeeds, (*form)->id, &std::pair<std::string_view, Feed>::first);
   return std::make_unique<RigSystemOf<ServoDrive>>(
       ServoDrive{std::move(*model), inputs, (*form)->states, feed->second});
 }
@@ -152,18 +152,19 @@ RigRow describe_servo() {
   return {.id = "servo",
           .rig = Rig::servo,
           .says = "one encoder, a pendulum or inertial load, no torque sensor; no torsion view",
-          .equations = "(N^2 J1 + J2) theta'' + (N^2 B1 + B2) theta' + N tau_f + m g l sin(theta) = "
-                       "N tau_m, (5) and (6) with phi = 0; tau_m = kt i, "
-                       "L i' = V - R i - ke omega_m, V = duty supply",
+          .equations =
+              "(N^2 J1 + J2) theta'' + (N^2 B1 + B2) theta' + N tau_f + m g l sin(theta) = "
+              "N tau_m, (5) and (6) with phi = 0; tau_m = kt i, "
+              "L i' = V - R i - ke omega_m, V = duty supply",
           .not_modelled = "torsion, sag of the supply beyond what supply_voltage records",
           .forms = {{"torque_driven", "by motor_torque", states, {Quantity::motor_torque}},
                     {"current_driven", "tau_m = kt i", states, {Quantity::current}},
                     {"voltage_driven", "tau_m = kt (V - ke omega)/R", states, bridge},
                     {"winding", "with the inductance of the winding", winding, bridge}},
-          .constants = constants_named({"motor_inertia", "motor_viscous", "motor_coulomb",
-                                        "coulomb_width", "load_inertia", "load_viscous",
-                                        "load_mass", "arm_length", "torque_constant", "resistance",
-                                        "inductance", "back_emf"}),
+          .constants =
+              constants_named({"motor_inertia", "motor_viscous", "motor_coulomb", "coulomb_width",
+                               "load_inertia", "load_viscous", "load_mass", "arm_length",
+                               "torque_constant", "resistance", "inductance", "back_emf"}),
           .outputs = {Quantity::load_angle, Quantity::velocity, Quantity::motor_torque},
           .residuals = {"drive"},
           .make = make};

@@ -21,10 +21,10 @@ struct Specimen {
     const double wanted = input(inputs, effort).value(t);
     Instant<Complex> z = start(t, Complex(real_part(y[0])));
     Instant<S> x = start(t, y[0]);
-    const S speed = implicit_root<S>(
-        [&](const Complex& v) { return recorded(complex_at, z, v) - wanted; },
-        [&](const S& v) { return S(recorded(at, x, v) - S(wanted)); },
-        model.drive().torsion.g_inverse.scale);
+    const S speed =
+        implicit_root<S>([&](const Complex& v) { return recorded(complex_at, z, v) - wanted; },
+                         [&](const S& v) { return S(recorded(at, x, v) - S(wanted)); },
+                         model.drive().torsion.g_inverse.scale);
     recorded(at, x, speed);
     ydot[0] = speed;
     at.memory_rates(at_speed(start(t, y[0]), speed), x, ydot.subspan(1));
@@ -53,8 +53,7 @@ struct Specimen {
     x = at_speed(x, v);
     at.add_kinematics(x);
     x.transmitted_torque = at.torsion_law(x);
-    const S effects(at.sum(Site::transmission, x) + at.sum(Site::motor, x) +
-                    at.sum(Site::load, x));
+    const S effects(at.sum(Site::transmission, x) + at.sum(Site::motor, x) + at.sum(Site::load, x));
     x.transmitted_torque += effects;
     return S(x.transmitted_torque + at.sum(Site::torque_signal, x));
   }
@@ -84,8 +83,9 @@ RigRow describe_specimen() {
   return {.id = "specimen",
           .rig = Rig::specimen,
           .says = "anything whose force follows an imposed displacement",
-          .equations = "phi' = h(phi) g(tau - f(phi)) (3), and displacement-driven "
-                       "tau = g^-1(phi'/h(phi)) + f(phi) (4); motion in rad (m), effort in Nm (N)",
+          .equations =
+              "phi' = h(phi) g(tau - f(phi)) (3), and displacement-driven "
+              "tau = g^-1(phi'/h(phi)) + f(phi) (4); motion in rad (m), effort in Nm (N)",
           .not_modelled = "mass of the specimen, but for inertia_torque when displacement-driven",
           .forms = {{"force_driven",
                      "eq. (3) with the effects' memory; displacement-driven is simulate_torque",

@@ -25,8 +25,8 @@ std::vector<HiddenExcitation> torsion_design(std::uint64_t seed, double amplitud
   }
   design.push_back({HiddenMotion::multisine, 0.9 * amplitude, 2.0 * slow, 3.0,
                     draw_samples(seed, 9, 800, 1000)});
-  design.push_back({HiddenMotion::step_hold, amplitude, slow, 3.0,
-                    draw_samples(seed, 10, 800, 1000)});
+  design.push_back(
+      {HiddenMotion::step_hold, amplitude, slow, 3.0, draw_samples(seed, 10, 800, 1000)});
   return design;
 }
 
@@ -38,13 +38,14 @@ std::vector<HiddenExcitation> load_design(std::uint64_t seed, const HiddenGear& 
   const double wide = drawn(seed, "amplitude", 0, 0.7, 1.0);
   std::vector<HiddenExcitation> design;
   const auto add = [&](HiddenMotion motion, double amplitude, double frequency, double cycles) {
-    design.push_back({motion, amplitude, frequency, cycles,
-                      draw_samples(seed, design.size(), 900, 1200)});
+    design.push_back(
+        {motion, amplitude, frequency, cycles, draw_samples(seed, design.size(), 900, 1200)});
   };
   for (const double share : {0.03, 0.2, 0.5}) {
     add(HiddenMotion::sine, wide, rate_for(wide, share), 2.5);
   }
-  for (const double share : {0.3, 1.0}) add(HiddenMotion::sine, wide / 2, rate_for(wide / 2, share), 3);
+  for (const double share : {0.3, 1.0})
+    add(HiddenMotion::sine, wide / 2, rate_for(wide / 2, share), 3);
   add(HiddenMotion::sine, wide / 4, rate_for(wide / 4, 0.8), 3);
   add(HiddenMotion::multisine, wide / 2, 0.18 * rate_for(wide / 2, 0.5), 2);
   add(HiddenMotion::multisine, wide / 4, 0.18 * rate_for(wide / 4, 0.7), 2);
@@ -93,8 +94,8 @@ HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed) {
   HiddenBench bench;
   bench.rig = rig;
   bench.seed = seed;
-  bench.gear = draw_gear(rig, seed, torque, torsion,
-                         torsion * kTurn * drawn(seed, "rated", 2, 0.1, 0.3));
+  bench.gear =
+      draw_gear(rig, seed, torque, torsion, torsion * kTurn * drawn(seed, "rated", 2, 0.1, 0.3));
   bench.design = draw_design(rig, seed, bench.gear);
   bench.nuisances = draw_nuisances(rig, seed);
   return bench;

@@ -36,7 +36,7 @@ class EverettMemory {
   std::vector<Turn> turns_;  ///< the first is on the virgin curve; then valleys and crests in turn
   double torsion_ = 0.0;
   double torque_ = 0.0;
-  int heading_ = 0;          ///< +1 rising, -1 falling, 0 not moved yet
+  int heading_ = 0;  ///< +1 rising, -1 falling, 0 not moved yet
 };
 
 }  // namespace flexspline::data

@@ -9,7 +9,8 @@ namespace flexspline::data {
 std::vector<double> slopes(const std::vector<double>& values, double step) {
   const std::size_t n = values.size();
   std::vector<double> result(n, 0.0);
-  for (std::size_t k = 1; k + 1 < n; ++k) result[k] = (values[k + 1] - values[k - 1]) / (2.0 * step);
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    result[k] = (values[k + 1] - values[k - 1]) / (2.0 * step);
   result[n - 1] = (1.5 * values[n - 1] - 2.0 * values[n - 2] + 0.5 * values[n - 3]) / step;
   return result;
 }

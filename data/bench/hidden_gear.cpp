@@ -15,7 +15,7 @@ using Curve = double (*)(double x, double bend);
 
 struct Family {
   const char* name;
-  double low;   ///< range of the bend
+  double low;  ///< range of the bend
   double high;
   Curve curve;
 };
@@ -25,7 +25,8 @@ constexpr std::array<Family, 3> kStiffness = {{
     {"sinh(b x)", 0.8, 1.8, [](double x, double b) { return std::sinh(b * x); }},
     {"x + b x^3/(1 + x^2)", 0.8, 2.5,
      [](double x, double b) { return x + b * x * x * x / (1.0 + x * x); }},
-    {"x sqrt(1 + b x^2)", 0.8, 3.0, [](double x, double b) { return x * std::sqrt(1.0 + b * x * x); }},
+    {"x sqrt(1 + b x^2)", 0.8, 3.0,
+     [](double x, double b) { return x * std::sqrt(1.0 + b * x * x); }},
 }};
 
 // Odd and rising in y = speed / the design's middle speed.
@@ -39,7 +40,8 @@ constexpr std::array<Family, 3> kDamping = {{
 
 // Even and between 1 and 1 + b.
 constexpr std::array<Family, 2> kModulation = {{
-    {"1 + b x^2/(1 + x^2)", 0.1, 0.6, [](double x, double b) { return 1.0 + b * x * x / (1.0 + x * x); }},
+    {"1 + b x^2/(1 + x^2)", 0.1, 0.6,
+     [](double x, double b) { return 1.0 + b * x * x / (1.0 + x * x); }},
     {"1 + b (1 - exp(-x^2))", 0.1, 0.4,
      [](double x, double b) { return 1.0 - b * std::expm1(-x * x); }},
 }};

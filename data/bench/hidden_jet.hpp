@@ -44,8 +44,7 @@ inline Jet soft_ramp(double t, double width) {
   if (u <= 0.0) return {};
   const Jet step = soft_step(t, width);
   const double u5 = u * u * u * u * u;
-  const double area =
-      u >= 1.0 ? u - 0.5 : u5 * (7.0 + u * (-14.0 + u * (10.0 - 2.5 * u)));
+  const double area = u >= 1.0 ? u - 0.5 : u5 * (7.0 + u * (-14.0 + u * (10.0 - 2.5 * u)));
   return {width * area, step.value, step.first};
 }
 

@@ -52,9 +52,9 @@ struct HiddenLaw {
   std::vector<HiddenParameter> parameters;
   std::function<double(const TorsionPoint&)> transmission;  ///< Nm beside f and g^-1
   std::function<void(const TorsionPoint&)> remember;
-  std::function<double(double)> windup;          ///< rad in series, of the law's torque; rising
-  std::function<double(double)> kinematic;       ///< rad at the output, of the motor angle
-  std::function<double(const LoadPoint&)> load;  ///< Nm the sensor sees beyond the equation
+  std::function<double(double)> windup;            ///< rad in series, of the law's torque; rising
+  std::function<double(double)> kinematic;         ///< rad at the output, of the motor angle
+  std::function<double(const LoadPoint&)> load;    ///< Nm the sensor sees beyond the equation
   std::function<double(const MotorPoint&)> motor;  ///< Nm at the motor that resist
   std::function<void(HiddenSignals&)> sensing;
 };
@@ -64,17 +64,17 @@ struct HiddenScale {
   Rig rig = Rig::locked;
   const HiddenGear* gear = nullptr;
   std::uint64_t seed = 0;
-  double torque = 0.0;             ///< peaks: Nm
+  double torque = 0.0;  ///< peaks: Nm
   double motor_torque = 0.0;
-  double torque_rate = 0.0;        ///< Nm/s
+  double torque_rate = 0.0;  ///< Nm/s
   double motor_torque_rate = 0.0;
-  double motion = 0.0;             ///< rad, of the held shaft
+  double motion = 0.0;  ///< rad, of the held shaft
   double speed = 0.0;
   double acceleration = 0.0;
   double motor_speed = 0.0;
   double torsion = 0.0;
-  double mean_rate = 0.0;          ///< rad/s, geometric mean of the excitations
-  double clock_end = 0.0;          ///< s
+  double mean_rate = 0.0;  ///< rad/s, geometric mean of the excitations
+  double clock_end = 0.0;  ///< s
 
   /// In [low, high): a pure function of (seed, id, index).
   double draw(std::string_view id, std::uint64_t index, double low, double high) const;

@@ -28,8 +28,8 @@ HeldMotion::HeldMotion(const HiddenExcitation& excitation, std::uint64_t seed, s
       plan_levels();
       break;
     case HiddenMotion::ramp:
-      plan_speeds(std::vector<double>(std::max<std::size_t>(
-          1, static_cast<std::size_t>(std::lround(excitation.cycles))), 1.0));
+      plan_speeds(std::vector<double>(
+          std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(excitation.cycles))), 1.0));
       break;
     case HiddenMotion::staircase:
       plan_speeds({1.0, 2.0, 4.0});

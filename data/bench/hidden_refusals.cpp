@@ -68,9 +68,9 @@ std::optional<Error> refusal(const HiddenBench& bench, const std::vector<HiddenE
       return usage(fmt::format("effect \"{}\" is asked for twice", effect.id), "give it one size");
     }
     if (std::ranges::find((*row)->rigs, bench.rig) == (*row)->rigs.end()) {
-      return usage(fmt::format("rig \"{}\" cannot show effect \"{}\"", name_of(bench.rig),
-                               effect.id),
-                   "choose another rig or another effect");
+      return usage(
+          fmt::format("rig \"{}\" cannot show effect \"{}\"", name_of(bench.rig), effect.id),
+          "choose another rig or another effect");
     }
     if (auto error = first_outside({{"size_fraction", effect.size_fraction, 0.0, 0.5}})) {
       return in_context(*error, effect.id);

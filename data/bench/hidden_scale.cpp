@@ -21,7 +21,8 @@ void raise_motion(HiddenScale& scale, const std::vector<double>& held, double st
 
 void raise_all(HiddenScale& scale, const HiddenSignals& s, double ratio) {
   std::vector<double> torsion = s.motor_angle;
-  for (std::size_t k = 0; k < torsion.size(); ++k) torsion[k] = torsion[k] / ratio - s.load_angle[k];
+  for (std::size_t k = 0; k < torsion.size(); ++k)
+    torsion[k] = torsion[k] / ratio - s.load_angle[k];
   const bool moves_load = scale.rig == Rig::free || scale.rig == Rig::servo;
   raise_motion(scale, moves_load ? s.load_angle : torsion, s.step);
   raise(scale.torsion, torsion);

@@ -112,8 +112,7 @@ Result<HiddenSizing> size_effect(const HiddenBench& bench,
   for (int trial = 0; trial < kMostTrials; ++trial) {
     double largest = 0.0;
     for (std::size_t k = 0; k < sessions.size(); ++k) {
-      const HiddenSignals run =
-          run_session(bench, sessions[k], scale, {{&row, search.amount()}});
+      const HiddenSignals run = run_session(bench, sessions[k], scale, {{&row, search.amount()}});
       for (const double left : equation_residual(bench, equation, run, null_runs[k])) {
         largest = std::max(largest, std::abs(left));
       }
@@ -125,7 +124,8 @@ Result<HiddenSizing> size_effect(const HiddenBench& bench,
   }
   return failure(ErrorCode::usage,
                  fmt::format("effect \"{}\" does not come to size_fraction = {} of peak torque on "
-                             "this bench; it came to {:.3g}", row.id, size, share),
+                             "this bench; it came to {:.3g}",
+                             row.id, size, share),
                  "ask for another size, or for a design that moves what the effect depends on");
 }
 

@@ -67,8 +67,8 @@ HiddenTorsion::State HiddenTorsion::follow(double torsion, double rate) {
 }
 
 HiddenTorsion::State HiddenTorsion::carry(double torque, double load_angle) {
-  const double x = solved(
-      [&](double trial) { return law(trial, implicit_rate(trial), load_angle) - torque; });
+  const double x =
+      solved([&](double trial) { return law(trial, implicit_rate(trial), load_angle) - torque; });
   settle(x, load_angle);
   return {x + windup(torque), torque};
 }

@@ -35,7 +35,7 @@ class HiddenTorsion {
   double step_;
   bool in_series_ = false;
   int steps_ = 0;
-  double last_ = 0.0;         ///< x of the last two instants
+  double last_ = 0.0;  ///< x of the last two instants
   double before_last_ = 0.0;
 };
 

@@ -33,11 +33,11 @@ RecordingSet empty_set(const HiddenBench& bench) {
 std::optional<Error> not_finite(const HiddenSession& session, const HiddenSignals& s) {
   for (std::size_t k = 0; k < s.size(); ++k) {
     if (std::isfinite(s.torque[k] + s.motor_angle[k] + s.motor_torque[k])) continue;
-    return Error{ErrorCode::numerics,
-                 fmt::format("recording {}: no finite torque at {} s", session.id,
-                             s.clock(k) - s.start_s),
-                 "choose an amplitude and a frequency that the gear's laws can follow",
-                 {}};
+    return Error{
+        ErrorCode::numerics,
+        fmt::format("recording {}: no finite torque at {} s", session.id, s.clock(k) - s.start_s),
+        "choose an amplitude and a frequency that the gear's laws can follow",
+        {}};
   }
   return std::nullopt;
 }
@@ -63,9 +63,8 @@ void add_recordings(HiddenDataset& data, const HiddenBench& bench,
   data.ideal = empty_set(bench);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     data.ideal.recordings.push_back(ideal_recording(bench, sessions[k], runs[k]));
-    data.measured.recordings.push_back(noisy_recording(bench, data.ideal.recordings.back(),
-                                                       data.answer.noise_std,
-                                                       data.answer.motor_noise_std));
+    data.measured.recordings.push_back(noisy_recording(
+        bench, data.ideal.recordings.back(), data.answer.noise_std, data.answer.motor_noise_std));
   }
 }
 

@@ -77,8 +77,8 @@ std::string effect_page(const EffectRow& row) {
   return fmt::format(
       "{}\n# {}\n\n    {}\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of 226 Nm and "
       "ratio 50.\n\n{}\n## Range\n\nHolds for: {}.\n\nNot modelled: {}.\n\n## Source\n\n{}\n",
-      kOrigin, row.id, row.equation, facts(row), parameter_table(row), row.range,
-      row.not_modelled, row.source);
+      kOrigin, row.id, row.equation, facts(row), parameter_table(row), row.range, row.not_modelled,
+      row.source);
 }
 
 std::string effect_index() {

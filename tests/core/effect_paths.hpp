@@ -26,22 +26,22 @@ struct InstantField {
 template <class S>
 constexpr auto instant_fields() {
   using X = Instant<S>;
-  return std::to_array<InstantField<S>>({{"time", &X::time, 30.0},
-                                         {"motor_angle", &X::motor_angle, 3.0},
-                                         {"motor_speed", &X::motor_speed, 30.0},
-                                         {"motor_acceleration", &X::motor_acceleration, 300.0},
-                                         {"load_angle", &X::load_angle, 1.0},
-                                         {"load_speed", &X::load_speed, 0.6},
-                                         {"load_acceleration", &X::load_acceleration, 6.0},
-                                         {"torsion", &X::torsion, 2e-3},
-                                         {"torsion_rate", &X::torsion_rate, 5e-3},
-                                         {"torsion_acceleration", &X::torsion_acceleration, 0.1},
-                                         {"transmitted_torque", &X::transmitted_torque, 100.0},
-                                         {"transmitted_torque_rate", &X::transmitted_torque_rate,
-                                          1000.0},
-                                         {"motor_torque", &X::motor_torque, 3.0},
-                                         {"motor_torque_rate", &X::motor_torque_rate, 30.0},
-                                         {"gear_ratio", &X::gear_ratio, 50.0}});
+  return std::to_array<InstantField<S>>(
+      {{"time", &X::time, 30.0},
+       {"motor_angle", &X::motor_angle, 3.0},
+       {"motor_speed", &X::motor_speed, 30.0},
+       {"motor_acceleration", &X::motor_acceleration, 300.0},
+       {"load_angle", &X::load_angle, 1.0},
+       {"load_speed", &X::load_speed, 0.6},
+       {"load_acceleration", &X::load_acceleration, 6.0},
+       {"torsion", &X::torsion, 2e-3},
+       {"torsion_rate", &X::torsion_rate, 5e-3},
+       {"torsion_acceleration", &X::torsion_acceleration, 0.1},
+       {"transmitted_torque", &X::transmitted_torque, 100.0},
+       {"transmitted_torque_rate", &X::transmitted_torque_rate, 1000.0},
+       {"motor_torque", &X::motor_torque, 3.0},
+       {"motor_torque_rate", &X::motor_torque_rate, 30.0},
+       {"gear_ratio", &X::gear_ratio, 50.0}});
 }
 
 inline Parameters nominal_parameters(const EffectRow& row) {

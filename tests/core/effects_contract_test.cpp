@@ -47,9 +47,8 @@ TEST_P(EveryEffect, SaysWhatItIs) {
 
 // Units are SI symbols, as products and quotients of whole powers.
 bool is_unit(std::string_view unit) {
-  static const std::set<std::string_view> symbols = {"1",  "rad", "Nm", "N", "s", "kg", "m",
-                                                     "A",  "V",   "W",  "J", "K", "Hz", "Ohm",
-                                                     "H"};
+  static const std::set<std::string_view> symbols = {"1", "rad", "Nm", "N", "s",  "kg",  "m", "A",
+                                                     "V", "W",   "J",  "K", "Hz", "Ohm", "H"};
   std::size_t at = 0;
   while (at < unit.size()) {
     std::size_t end = unit.find_first_of(" /()", at);

@@ -40,9 +40,12 @@ Instant<S> instant_at(std::span<const S> fields) {
 
 template <class S>
 const EffectFunctions<S>& functions(const EffectRow& row) {
-  if constexpr (std::is_same_v<S, double>) return row.real;
-  else if constexpr (std::is_same_v<S, Dual>) return row.dual;
-  else return row.complex;
+  if constexpr (std::is_same_v<S, double>)
+    return row.real;
+  else if constexpr (std::is_same_v<S, Dual>)
+    return row.dual;
+  else
+    return row.complex;
 }
 
 /// The term for one instant; for two, the states after advancing from one to the other.

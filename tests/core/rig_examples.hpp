@@ -50,17 +50,16 @@ inline std::vector<double> instants(double end, int count) {
   return times;
 }
 
-inline std::unique_ptr<RigSystem> made_rig(Rig rig, const DriveSpec& drive,
-                                           const RigInputs& inputs, std::string_view form = {}) {
+inline std::unique_ptr<RigSystem> made_rig(Rig rig, const DriveSpec& drive, const RigInputs& inputs,
+                                           std::string_view form = {}) {
   auto system = make_rig(rig, drive, inputs, form);
   EXPECT_TRUE(system) << system.error().message();
   return std::move(*system);
 }
 
 inline std::vector<double> simulated(const OdeSystem& system, std::span<const double> p,
-                                     std::span<const double> times,
-                                     std::span<const double> initial, double tolerance,
-                                     double absolute) {
+                                     std::span<const double> times, std::span<const double> initial,
+                                     double tolerance, double absolute) {
   SystemSettings settings;
   settings.relative_tolerance = tolerance;
   settings.absolute_tolerance.assign(system.states(), absolute);

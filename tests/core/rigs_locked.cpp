@@ -53,8 +53,9 @@ TEST(LoopEnergy, IsThatOfTheClosedForm) {
       double factor = 1.0;
       for (std::size_t k = 1; k <= 5; ++k) {
         factor *= static_cast<double>(2 * k - 1) / static_cast<double>(2 * k);
-        closed += model.g_inverse.coefficients[k - 1] * std::pow(amplitude * w / edge, 2.0 * static_cast<double>(k) - 1.0) *
-                  amplitude * w * factor;
+        closed += model.g_inverse.coefficients[k - 1] *
+                  std::pow(amplitude * w / edge, 2.0 * static_cast<double>(k) - 1.0) * amplitude *
+                  w * factor;
       }
       closed *= 2.0 * std::numbers::pi / w;
       worst = std::max(worst, std::abs(energy - closed) / size);
@@ -91,8 +92,8 @@ TEST(Specimen, GivesBackTheMotionThatMadeTheTorque) {
   DriveSpec drive = example_drive();
   drive.gear_ratio = 1.0;
   const Imposed imposed{drive.torsion, 2e-3, 2.0 * std::numbers::pi};
-  const auto rig = made_rig(Rig::specimen, drive,
-                            {{{Quantity::transmitted_torque, imposed.torque()}}, {}});
+  const auto rig =
+      made_rig(Rig::specimen, drive, {{{Quantity::transmitted_torque, imposed.torque()}}, {}});
   const auto times = instants(3.0, 300);
   const auto y = simulated(*rig, rig->parameter_vector(), times, rig->rest(), 1e-11, 1e-14);
   double worst = 0.0;
@@ -126,10 +127,8 @@ TEST(Specimen, IsDrivenByTorqueWithItsMemory) {
       {"presliding",
        {{"presliding_hysteresis",
          {{"stiffness", 2000.0}, {"yield", 3e-4}, {"stiffness", 1000.0}, {"yield", 1e-3}}}}},
-      {"bouc_wen",
-       {{"bouc_wen", {{"height", 4.5}, {"slip_length", 3e-4}, {"exponent", 1.0}}}}},
-      {"creep",
-       {{"viscoelastic_creep", {{"stiffness", 4500.0}, {"time_constant", 0.3}}}}},
+      {"bouc_wen", {{"bouc_wen", {{"height", 4.5}, {"slip_length", 3e-4}, {"exponent", 1.0}}}}},
+      {"creep", {{"viscoelastic_creep", {{"stiffness", 4500.0}, {"time_constant", 0.3}}}}},
       {"offset", {{"torque_sensor_offset", {{"offset", 0.5}}}}}};
   for (const auto& [name, effects] : cases) {
     const double error = round_trip(effects, 4000);
@@ -165,9 +164,8 @@ TEST(LockedRig, ApproachesTheReducedFormWhenSlow) {
 
 TEST(LockedRig, HoldsTheReferenceOfThePapersExperiment) {
   const DriveSpec drive = example_drive();
-  const auto rig = made_rig(Rig::locked, drive,
-                            {{{Quantity::commanded_angle, sine(0.1745, 0.05)}}, {}},
-                            "position_loop");
+  const auto rig = made_rig(
+      Rig::locked, drive, {{{Quantity::commanded_angle, sine(0.1745, 0.05)}}, {}}, "position_loop");
   const auto times = instants(40.0, 200);
   const auto y = simulated(*rig, rig->parameter_vector(), times, rig->rest(), 1e-8, 1e-10);
   for (std::size_t i = 20; i < times.size(); ++i) {
@@ -179,8 +177,7 @@ TEST(LockedRig, HoldsTheReferenceOfThePapersExperiment) {
 // Eq. (11) at one state, by hand.
 TEST(LockedRig, ObeysItsEquation) {
   const DriveSpec drive = example_drive();
-  const auto rig = made_rig(Rig::locked, drive,
-                            {{{Quantity::motor_torque, constant(0.3)}}, {}});
+  const auto rig = made_rig(Rig::locked, drive, {{{Quantity::motor_torque, constant(0.3)}}, {}});
   const double angle = 0.05;
   const double speed = 0.7;
   const auto x = rig->instant(0.0, std::vector<double>{angle, speed}, rig->parameter_vector());

@@ -25,10 +25,16 @@ std::vector<Case> cases() {
           {"held", Rig::locked, "position_loop", {}, angle},
           {"free", Rig::free, "motor_driven", {creep}, torque},
           {"free_held", Rig::free, "position_loop", {}, angle},
-          {"specimen", Rig::specimen, "force_driven", {creep},
+          {"specimen",
+           Rig::specimen,
+           "force_driven",
+           {creep},
            {{{Quantity::transmitted_torque, sine(20.0, 2.0)}}, {}}},
           {"servo", Rig::servo, "torque_driven", {}, torque},
-          {"servo_current", Rig::servo, "current_driven", {},
+          {"servo_current",
+           Rig::servo,
+           "current_driven",
+           {},
            {{{Quantity::current, sine(4.0, 2.0)}}, {}}},
           {"servo_voltage", Rig::servo, "voltage_driven", {}, bridge},
           {"servo_winding", Rig::servo, "winding", {}, bridge}};
@@ -85,10 +91,8 @@ TEST_P(EveryRig, HasTheDerivativesOfItsTrajectory) {
       ASSERT_TRUE(run) << run.error().message();
       ends[s] = run->state[(times.size() - 1) * n];
     }
-    const double difference =
-        (8.0 * (ends[0] - ends[1]) - (ends[2] - ends[3])) / (12.0 * step);
-    worst_difference =
-        std::max(worst_difference, std::abs(exact - difference) * scale(k) / size);
+    const double difference = (8.0 * (ends[0] - ends[1]) - (ends[2] - ends[3])) / (12.0 * step);
+    worst_difference = std::max(worst_difference, std::abs(exact - difference) * scale(k) / size);
   }
   std::printf("%s: %zu states, %zu parameters, forward-adjoint %.1e, forward-difference %.1e\n",
               one.name.c_str(), n, p.size(), worst_adjoint, worst_difference);

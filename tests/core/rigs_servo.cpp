@@ -29,8 +29,8 @@ TEST(Servo, SwingsWithThePeriodOfItsPendulum) {
   const double w = std::sqrt(0.49 * 0.1 * drive.gravity / inertia);
   constexpr double kAngle = 1e-3;
   const auto times = instants(4.0 * std::numbers::pi / w, 40);
-  const auto y = simulated(*rig, rig->parameter_vector(), times,
-                           std::vector<double>{kAngle, 0.0}, 1e-10, 1e-13);
+  const auto y = simulated(*rig, rig->parameter_vector(), times, std::vector<double>{kAngle, 0.0},
+                           1e-10, 1e-13);
   // The period grows by angle^2/16.
   const double slowed = w * (1.0 - kAngle * kAngle / 16.0);
   for (std::size_t i = 0; i < times.size(); ++i) {

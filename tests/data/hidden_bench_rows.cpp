@@ -59,7 +59,8 @@ TEST_P(HiddenRowTest, HasItsShareInItsEquationAndOnlyThere) {
   EXPECT_EQ(told.equation, own);
   EXPECT_NEAR(told.size_fraction / kSize, 1.0, 0.021);
   EXPECT_FALSE(told.parameters.empty());
-  const bool is_sensor = row().site == HiddenSite::torque_sensor || row().site == HiddenSite::encoder;
+  const bool is_sensor =
+      row().site == HiddenSite::torque_sensor || row().site == HiddenSite::encoder;
   for (const HiddenEquation other : equations_of(rig())) {
     if (other == own || is_sensor) continue;
     // Through a gap or over a tooth the motor accelerates faster than samples resolve.
@@ -86,10 +87,9 @@ TEST_P(HiddenRowTest, StartsAtRest) {
 double work_of(const HiddenBench& bench, HiddenEquation equation, const Recording& with,
                const Recording& without, std::size_t from, std::size_t to) {
   const bool at_torsion = equation == HiddenEquation::torsion;
-  const Differences x =
-      at_torsion ? torsion_series(bench, with)
-                 : series(with, bench.rig == Rig::servo ? Quantity::load_angle
-                                                        : Quantity::motor_angle);
+  const Differences x = at_torsion ? torsion_series(bench, with)
+                                   : series(with, bench.rig == Rig::servo ? Quantity::load_angle
+                                                                          : Quantity::motor_angle);
   std::vector<double> torque;
   if (equation == HiddenEquation::drive) {
     torque = with.channels.at(Quantity::motor_torque);
@@ -144,14 +144,34 @@ TEST(HiddenNull, BalancesOnEveryRig) {
 }
 
 TEST(HiddenCatalogue, HasEveryEffectOfADiagnosisAndThreeOutsideIt) {
-  const std::set<std::string_view> wanted = {
-      "presliding_hysteresis", "viscoelastic_creep", "backlash", "direction_asymmetry",
-      "stribeck_friction", "nonlinear_viscous_friction", "load_dependent_friction",
-      "position_dependent_friction", "kinematic_error", "motor_torque_ripple", "gravity_load",
-      "inertia_torque", "thermal_friction_drift", "torque_sensor_offset", "torque_sensor_drift",
-      "sensor_delay", "motor_torque_offset", "torque_constant_error", "torque_sensor_gain",
-      "series_compliance", "soft_windup", "encoder_skew", "encoder_eccentricity", "current_lag",
-      "sensor_crosstalk", "unknown:cross", "unknown:order", "unknown:ratchet"};
+  const std::set<std::string_view> wanted = {"presliding_hysteresis",
+                                             "viscoelastic_creep",
+                                             "backlash",
+                                             "direction_asymmetry",
+                                             "stribeck_friction",
+                                             "nonlinear_viscous_friction",
+                                             "load_dependent_friction",
+                                             "position_dependent_friction",
+                                             "kinematic_error",
+                                             "motor_torque_ripple",
+                                             "gravity_load",
+                                             "inertia_torque",
+                                             "thermal_friction_drift",
+                                             "torque_sensor_offset",
+                                             "torque_sensor_drift",
+                                             "sensor_delay",
+                                             "motor_torque_offset",
+                                             "torque_constant_error",
+                                             "torque_sensor_gain",
+                                             "series_compliance",
+                                             "soft_windup",
+                                             "encoder_skew",
+                                             "encoder_eccentricity",
+                                             "current_lag",
+                                             "sensor_crosstalk",
+                                             "unknown:cross",
+                                             "unknown:order",
+                                             "unknown:ratchet"};
   std::set<std::string_view> have;
   for (const HiddenRow& row : hidden_effects()) {
     have.insert(row.id);

@@ -21,11 +21,13 @@ inline HiddenBench small_bench(Rig rig, std::uint64_t seed = 3) {
   switch (rig) {
     case Rig::locked:
     case Rig::specimen:
-      bench.design = {{sine, torsion, 0.03, 2.5, 500}, {sine, 0.6 * torsion, 1.5, 2.5, 500},
+      bench.design = {{sine, torsion, 0.03, 2.5, 500},
+                      {sine, 0.6 * torsion, 1.5, 2.5, 500},
                       {multisine, torsion, 0.05, 1.5, 700}};
       break;
     case Rig::free:
-      bench.design = {{sine, 0.3, 0.9, 2.5, 900}, {sine, 0.15, 1.4, 2.5, 700},
+      bench.design = {{sine, 0.3, 0.9, 2.5, 900},
+                      {sine, 0.15, 1.4, 2.5, 700},
                       {multisine, 0.2, 0.25, 1.0, 1000}};
       break;
     case Rig::servo:
@@ -45,7 +47,8 @@ struct Differences {
   }
   double second(std::size_t k) const {
     return (16.0 * (value[k + 1] + value[k - 1]) - (value[k + 2] + value[k - 2]) -
-            30.0 * value[k]) / (12.0 * step * step);
+            30.0 * value[k]) /
+           (12.0 * step * step);
   }
 };
 
@@ -74,8 +77,9 @@ inline std::vector<double> balance(const HiddenBench& bench, HiddenEquation equa
   const HiddenGear& gear = bench.gear;
   std::vector<double> left;
   const bool motor = equation == HiddenEquation::motor;
-  const Differences x = equation == HiddenEquation::torsion ? torsion_series(bench, r)
-                        : series(r, motor ? Quantity::motor_angle : Quantity::load_angle);
+  const Differences x = equation == HiddenEquation::torsion
+                            ? torsion_series(bench, r)
+                            : series(r, motor ? Quantity::motor_angle : Quantity::load_angle);
   const std::vector<double>& tau = r.channels.at(Quantity::transmitted_torque);
   for (std::size_t k = 2; k + 2 < tau.size(); ++k) {
     const double rate = x.first(k);

@@ -81,8 +81,7 @@ TEST(ModelFile, ReadsEveryEffectBack) {
   const auto back = parse_model(model_toml(model), "MODEL.toml");
   ASSERT_TRUE(back.has_value()) << back.error().message();
   expect_same(*back, model);
-  const auto from_json =
-      model_from_json(nlohmann::ordered_json::parse(to_json(model).dump()));
+  const auto from_json = model_from_json(nlohmann::ordered_json::parse(to_json(model).dump()));
   ASSERT_TRUE(from_json.has_value()) << from_json.error().message();
   expect_same(*from_json, model);
 }

@@ -18,13 +18,14 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 }  // namespace
 
 HiddenRow describe_direction_asymmetry() {
-  return {.id = "direction_asymmetry",
-          .coordinate = "velocity",
-          .equation = "friction += a s (1 + s)/2, s = w / sqrt(w^2 + e^2): more in the one direction",
-          .site = HiddenSite::motor,
-          .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
-          .dissipates = true,
-          .make = make};
+  return {
+      .id = "direction_asymmetry",
+      .coordinate = "velocity",
+      .equation = "friction += a s (1 + s)/2, s = w / sqrt(w^2 + e^2): more in the one direction",
+      .site = HiddenSite::motor,
+      .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
+      .dissipates = true,
+      .make = make};
 }
 
 }  // namespace flexspline::data

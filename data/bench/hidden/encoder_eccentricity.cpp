@@ -9,7 +9,8 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   HiddenLaw law;
   law.parameters = {{"amplitude", error, "rad"}};
   law.sensing = [=](HiddenSignals& s) {
-    for (double& angle : s.motor_angle) angle += error * (std::sin(angle + phase) - std::sin(phase));
+    for (double& angle : s.motor_angle)
+      angle += error * (std::sin(angle + phase) - std::sin(phase));
   };
   return law;
 }

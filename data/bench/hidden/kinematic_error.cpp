@@ -22,13 +22,15 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 }  // namespace
 
 HiddenRow describe_kinematic_error() {
-  return {.id = "kinematic_error",
-          .coordinate = "motor_angle",
-          .equation = "torsion += sum_k e_k (sin(k th1 + p_k) - sin p_k), k = 2, 4, 1 in shares 1 : 0.3 : 0.25",
-          .site = HiddenSite::transmission,
-          .rigs = {Rig::free},
-          .dissipates = false,
-          .make = make};
+  return {
+      .id = "kinematic_error",
+      .coordinate = "motor_angle",
+      .equation =
+          "torsion += sum_k e_k (sin(k th1 + p_k) - sin p_k), k = 2, 4, 1 in shares 1 : 0.3 : 0.25",
+      .site = HiddenSite::transmission,
+      .rigs = {Rig::free},
+      .dissipates = false,
+      .make = make};
 }
 
 }  // namespace flexspline::data

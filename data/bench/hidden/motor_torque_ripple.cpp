@@ -20,7 +20,8 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 HiddenRow describe_motor_torque_ripple() {
   return {.id = "motor_torque_ripple",
           .coordinate = "motor_angle",
-          .equation = "tau_m += a sin(4 th1) + 0.5 a (tau_m/peak) sin(6 th1 + p): cogging and commutation",
+          .equation =
+              "tau_m += a sin(4 th1) + 0.5 a (tau_m/peak) sin(6 th1 + p): cogging and commutation",
           .site = HiddenSite::motor,
           .rigs = {Rig::free, Rig::servo},
           .dissipates = false,

@@ -19,13 +19,14 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 }  // namespace
 
 HiddenRow describe_nonlinear_viscous_friction() {
-  return {.id = "nonlinear_viscous_friction",
-          .coordinate = "velocity",
-          .equation = "friction += a y (y^2 + 0.001)^((n-1)/2), y = w / peak speed, n < 1: churning",
-          .site = HiddenSite::motor,
-          .rigs = {Rig::locked, Rig::free, Rig::servo},
-          .dissipates = true,
-          .make = make};
+  return {
+      .id = "nonlinear_viscous_friction",
+      .coordinate = "velocity",
+      .equation = "friction += a y (y^2 + 0.001)^((n-1)/2), y = w / peak speed, n < 1: churning",
+      .site = HiddenSite::motor,
+      .rigs = {Rig::locked, Rig::free, Rig::servo},
+      .dissipates = true,
+      .make = make};
 }
 
 }  // namespace flexspline::data

@@ -10,8 +10,8 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const bool servo = scale.rig == Rig::servo;
   const double travel = servo ? scale.motion * scale.gear->gear_ratio : scale.torsion;
   const double height = amount * (servo ? scale.motor_torque : scale.torque);
-  const double width = scale.draw("presliding_hysteresis", 0, 0.08, 0.25) * travel *
-                       (servo ? 0.3 : 1.0);
+  const double width =
+      scale.draw("presliding_hysteresis", 0, 0.08, 0.25) * travel * (servo ? 0.3 : 1.0);
   auto memory = std::make_shared<EverettMemory>(EverettShape{height, width, 2.0 * travel});
   HiddenLaw law;
   law.parameters = {{"height", height, "Nm"}, {"width", width, "rad"}};
@@ -32,7 +32,9 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 HiddenRow describe_presliding_hysteresis() {
   return {.id = "presliding_hysteresis",
           .coordinate = "reversal_memory",
-          .equation = "torque += z: Preisach memory by its Everett function, z = a x/(x + w) on the virgin curve; at the motor on a servo",
+          .equation =
+              "torque += z: Preisach memory by its Everett function, z = a x/(x + w) on the virgin "
+              "curve; at the motor on a servo",
           .site = HiddenSite::transmission,
           .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
           .dissipates = true,

@@ -22,7 +22,9 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 HiddenRow describe_unknown_ratchet() {
   return {.id = "unknown:ratchet",
           .coordinate = "",
-          .equation = "tau += a (phi/peak) s(1.37 th1), s(u) = sin u / (1.25 - cos u): stiffness in a saw over the angle",
+          .equation =
+              "tau += a (phi/peak) s(1.37 th1), s(u) = sin u / (1.25 - cos u): stiffness in a saw "
+              "over the angle",
           .site = HiddenSite::transmission,
           .rigs = {Rig::free},
           .dissipates = false,

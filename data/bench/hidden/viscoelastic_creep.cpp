@@ -50,7 +50,8 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
 HiddenRow describe_viscoelastic_creep() {
   return {.id = "viscoelastic_creep",
           .coordinate = "lag",
-          .equation = "tau += sum q_i, q_i' = k_i phi' - q_i/T_i, three branches, T in ratio 1 : 5 : 25",
+          .equation =
+              "tau += sum q_i, q_i' = k_i phi' - q_i/T_i, three branches, T in ratio 1 : 5 : 25",
           .site = HiddenSite::transmission,
           .rigs = {Rig::locked, Rig::free, Rig::specimen},
           .dissipates = true,

@@ -22,32 +22,32 @@ const std::vector<double> kTimes = {
 
 // One line a time, one column a state.
 const std::vector<double> kMeasured = {
-    0.58462429, 1.653802752,
-    1.480323792, 1.898433328,
-    1.941197515, 0.791087389,
-    1.266090393, 0.402385741,
-    0.68499583, 0.435968041,
-    0.435253441, 0.725707829,
-    0.404814065, 1.244405746,
-    0.822427034, 2.052562952,
-    1.771604896, 1.426515341,
-    1.754832745, 0.548344791,
+    0.58462429,  1.653802752, 1.480323792, 1.898433328, 1.941197515, 0.791087389, 1.266090393,
+    0.402385741, 0.68499583,  0.435968041, 0.435253441, 0.725707829, 0.404814065, 1.244405746,
+    0.822427034, 2.052562952, 1.771604896, 1.426515341, 1.754832745, 0.548344791,
 };
 
 }  // namespace
 
 CertifiedOde describe_lotka_volterra() {
   CertifiedOde row{.name = "lotka_volterra", .title = "Lotka-Volterra"};
-  row.source = "data of Schittkowski (2002) as in PSOPT's example predator; optimum found independently";
+  row.source =
+      "data of Schittkowski (2002) as in PSOPT's example predator; optimum found independently";
   row.problem.system = std::make_shared<LotkaVolterra>();
   row.problem.parameters = rates("theta", {0.8, 0.8, 0.8, 0.8}, "1");
   row.problem.experiments = {fully_observed("lotka_volterra", {0.4, 1.0}, kTimes, kMeasured)};
   row.sum_of_squares = 0.027536379089076045;
   row.parameters = {
-      0.9837424300386838, 0.9803889160406962, 1.0169075505455327, 1.022713281123032,
+      0.9837424300386838,
+      0.9803889160406962,
+      1.0169075505455327,
+      1.022713281123032,
   };
   row.std = {
-      0.02402501832812555, 0.021595898616417846, 0.02281906331548477, 0.02667455157551722,
+      0.02402501832812555,
+      0.021595898616417846,
+      0.02281906331548477,
+      0.02667455157551722,
   };
   return row;
 }

@@ -13,30 +13,30 @@ namespace flexspline {
 /// Holds the motor at a reference angle r: tau_m = kp e + ki int e dt + kd e', e = r - theta_m,
 /// limited to +-limit. Integration goes on at the limit.
 struct PositionLoop {
-  double proportional = 0.0;  ///< Nm/rad
-  double integral = 0.0;      ///< Nm/(rad s)
-  double derivative = 0.0;    ///< Nm s/rad
+  double proportional = 0.0;                               ///< Nm/rad
+  double integral = 0.0;                                   ///< Nm/(rad s)
+  double derivative = 0.0;                                 ///< Nm s/rad
   double limit = std::numeric_limits<double>::infinity();  ///< Nm
 };
 
 /// A whole drive as plain data, Dhaouadi and Ghorbel (2003), eqs. (4)-(14). SI; motor quantities at
 /// the motor shaft, others at the output. 0 where a rig has no use for a constant.
 struct DriveSpec {
-  ModelSpec torsion;              ///< f, g^-1, h, and effects at any site
-  double gear_ratio = 1.0;        ///< N; 1 on a specimen
-  double motor_inertia = 0.0;     ///< J1, kg m2, with the wave generator
-  double motor_viscous = 0.0;     ///< B1, Nm s/rad
-  double motor_coulomb = 0.0;     ///< tau_f = c tanh(omega/w), Nm
-  double coulomb_width = 0.5;     ///< w, rad/s at the motor
-  double load_inertia = 0.0;      ///< J2, kg m2
-  double load_viscous = 0.0;      ///< B2, Nm s/rad
-  double load_mass = 0.0;         ///< m, kg: tau_L = m g l sin(theta_l), hanging down at 0
-  double arm_length = 0.0;        ///< l, m
-  double gravity = 9.80665;       ///< g, m/s2
-  double torque_constant = 0.0;   ///< kt, Nm/A
-  double resistance = 0.0;        ///< R, Ohm
-  double inductance = 0.0;        ///< L, H
-  double back_emf = 0.0;          ///< ke, V s/rad
+  ModelSpec torsion;             ///< f, g^-1, h, and effects at any site
+  double gear_ratio = 1.0;       ///< N; 1 on a specimen
+  double motor_inertia = 0.0;    ///< J1, kg m2, with the wave generator
+  double motor_viscous = 0.0;    ///< B1, Nm s/rad
+  double motor_coulomb = 0.0;    ///< tau_f = c tanh(omega/w), Nm
+  double coulomb_width = 0.5;    ///< w, rad/s at the motor
+  double load_inertia = 0.0;     ///< J2, kg m2
+  double load_viscous = 0.0;     ///< B2, Nm s/rad
+  double load_mass = 0.0;        ///< m, kg: tau_L = m g l sin(theta_l), hanging down at 0
+  double arm_length = 0.0;       ///< l, m
+  double gravity = 9.80665;      ///< g, m/s2
+  double torque_constant = 0.0;  ///< kt, Nm/A
+  double resistance = 0.0;       ///< R, Ohm
+  double inductance = 0.0;       ///< L, H
+  double back_emf = 0.0;         ///< ke, V s/rad
   PositionLoop position_loop{};
 };
 

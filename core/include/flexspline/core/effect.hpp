@@ -22,14 +22,14 @@ struct Motion {
 
 /// Where an effect enters the drive of Dhaouadi and Ghorbel (2003), eqs. (5)-(8), and its sign.
 enum class Site {
-  motor,               ///< + in (5), Nm at the motor shaft: opposes the motor torque
-  load,                ///< + in (6), Nm at the output: opposes the transmitted torque
-  transmission,        ///< + in (7), Nm: part of the transmitted torque
-  kinematics,          ///< + in (8), rad at the output: part of the torsion
-  torque_signal,       ///< measured minus true transmitted torque, Nm
-  motor_torque_signal, ///< recorded minus true motor torque, Nm
-  motor_angle_signal,  ///< measured minus true motor angle, rad
-  load_angle_signal,   ///< measured minus true load angle, rad
+  motor,                ///< + in (5), Nm at the motor shaft: opposes the motor torque
+  load,                 ///< + in (6), Nm at the output: opposes the transmitted torque
+  transmission,         ///< + in (7), Nm: part of the transmitted torque
+  kinematics,           ///< + in (8), rad at the output: part of the torsion
+  torque_signal,        ///< measured minus true transmitted torque, Nm
+  motor_torque_signal,  ///< recorded minus true motor torque, Nm
+  motor_angle_signal,   ///< measured minus true motor angle, rad
+  load_angle_signal,    ///< measured minus true load angle, rad
 };
 
 std::string_view name_of(Site site);
@@ -64,20 +64,20 @@ struct EffectRow {
   std::string_view coordinate;  ///< the variable in which it is organised
   Site site = Site::transmission;
   std::string_view equation;
-  std::string_view range;         ///< where the equation holds
+  std::string_view range;  ///< where the equation holds
   std::string_view not_modelled;
   std::string_view source;
   std::vector<EffectParameter> parameters;
-  std::vector<Rig> rigs;          ///< where it exists
-  bool repeats = false;           ///< the parameters and states come in groups (elements)
-  std::size_t states = 0;         ///< of one element
-  bool passive = true;            ///< makes no energy over a closed cycle
+  std::vector<Rig> rigs;   ///< where it exists
+  bool repeats = false;    ///< the parameters and states come in groups (elements)
+  std::size_t states = 0;  ///< of one element
+  bool passive = true;     ///< makes no energy over a closed cycle
   bool rate_independent = false;
   EffectFunctions<double> real{};
   EffectFunctions<Dual> dual{};
   EffectFunctions<Complex> complex{};
-  /// For effects of a whole signal (delay, lag, quantisation) instead of a term: maps what the site's
-  /// channel shows, in place.
+  /// For effects of a whole signal (delay, lag, quantisation) instead of a term: maps what the
+  /// site's channel shows, in place.
   void (*map)(std::span<const double> time, std::span<double> signal,
               std::span<const double> parameters) = nullptr;
 };
@@ -88,7 +88,8 @@ template <class Law, class S>
 EffectFunctions<S> functions_of() {
   EffectFunctions<S> functions;
   functions.term = &Law::template term<S>;
-  if constexpr (requires { &Law::template advance<S>; }) functions.advance = &Law::template advance<S>;
+  if constexpr (requires { &Law::template advance<S>; })
+    functions.advance = &Law::template advance<S>;
   if constexpr (requires { &Law::template rate<S>; }) functions.rate = &Law::template rate<S>;
   return functions;
 }

@@ -3,8 +3,8 @@
 namespace flexspline {
 
 /// All that an effect may depend on at one instant. SI; motor quantities at the motor shaft, others
-/// at the output. On a specimen the imposed motion is motor, load and torsion at once, with ratio 1,
-/// and effort is the transmitted torque.
+/// at the output. On a specimen the imposed motion is motor, load and torsion at once, with ratio
+/// 1, and effort is the transmitted torque.
 template <class S>
 struct Instant {
   S time{0.0};

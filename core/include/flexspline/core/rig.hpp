@@ -24,13 +24,13 @@ struct Signal {
   std::function<double(double)> rate;  ///< may be empty: central difference over 2e-5 s
 };
 
-/// A cubic spline through samples, held constant beyond them. One thread a signal: it remembers where
-/// it looked last.
+/// A cubic spline through samples, held constant beyond them. One thread a signal: it remembers
+/// where it looked last.
 Signal sampled_signal(std::span<const double> time, std::span<const double> samples);
 
 /// What drives a rig. Motor torque is what was recorded or commanded; effects at
-/// motor_torque_signal make the true torque differ from it. On a force-driven specimen the effort is
-/// what was recorded, and effects at torque_signal make the true effort differ from it.
+/// motor_torque_signal make the true torque differ from it. On a force-driven specimen the effort
+/// is what was recorded, and effects at torque_signal make the true effort differ from it.
 struct RigInputs {
   std::map<Quantity, Signal> channels;
   std::optional<Signal> load_torque;  ///< tau_L beyond the pendulum's, Nm at the output
@@ -42,9 +42,9 @@ struct RigVariable {
   std::string_view says;
 };
 
-/// A rig's forward simulation. States: the rig's own, then the memory of the effects in their order.
-/// Parameters: those of the drive, in the order of parameter_list. One thread a system, as it keeps
-/// the laws made for the parameters last used.
+/// A rig's forward simulation. States: the rig's own, then the memory of the effects in their
+/// order. Parameters: those of the drive, in the order of parameter_list. One thread a system, as
+/// it keeps the laws made for the parameters last used.
 class RigSystem : public OdeSystem {
  public:
   virtual const DriveSpec& drive() const = 0;
@@ -54,7 +54,8 @@ class RigSystem : public OdeSystem {
   /// All that happens at an instant in these states: angles, speeds, accelerations, torques.
   virtual Instant<double> instant(double t, std::span<const double> y,
                                   std::span<const double> p) const = 0;
-  virtual Instant<Dual> instant(double t, std::span<const Dual> y, std::span<const Dual> p) const = 0;
+  virtual Instant<Dual> instant(double t, std::span<const Dual> y,
+                                std::span<const Dual> p) const = 0;
 
   /// The parameters of the drive it was made with.
   std::vector<double> parameter_vector() const;
@@ -75,9 +76,9 @@ struct RigRow {
   std::string_view id;
   Rig rig = Rig::locked;
   std::string_view says;
-  std::string_view equations;     ///< with the numbers of Dhaouadi and Ghorbel (2003)
+  std::string_view equations;  ///< with the numbers of Dhaouadi and Ghorbel (2003)
   std::string_view not_modelled;
-  std::vector<RigForm> forms;     ///< the first is the usual one
+  std::vector<RigForm> forms;            ///< the first is the usual one
   std::vector<DriveConstant> constants;  ///< what it uses of a DriveSpec besides the gear ratio
   std::vector<Quantity> outputs;
   std::vector<std::string_view> residuals;  ///< of motor, load, torsion, drive

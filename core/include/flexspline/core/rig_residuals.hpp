@@ -44,8 +44,8 @@ struct DriveResiduals {
 Result<DriveResiduals> residuals(Rig rig, const DriveSpec& drive, const DriveChannels& channels);
 
 /// A recording's channels, angles smoothed by a penalised spline for their derivatives. On the
-/// locked rig the load rests. current becomes motor torque by kt, duty_cycle by kt (V - ke omega)/R.
-/// Errors: fewer than 16 samples.
+/// locked rig the load rests. current becomes motor torque by kt, duty_cycle by kt (V - ke
+/// omega)/R. Errors: fewer than 16 samples.
 Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording);
 
 }  // namespace flexspline

@@ -25,8 +25,8 @@ struct IntegratorSettings {
 /// (BDF), with tau a spline through its samples. Gives phi at the instants of time, rad (m).
 /// Effects: those of the specimen rig, their memory integrated along from unloaded; initial is then
 /// the motion at which every memory is empty.
-/// Errors: numerics, with the time and the state reached; an effect that needs what eq. (3) does not
-/// know beforehand, as inertia_torque the acceleration or sensor_delay the whole signal.
+/// Errors: numerics, with the time and the state reached; an effect that needs what eq. (3) does
+/// not know beforehand, as inertia_torque the acceleration or sensor_delay the whole signal.
 Result<std::vector<double>> simulate_torsion(const ModelSpec& model, std::span<const double> time,
                                              std::span<const double> torque, double initial,
                                              const IntegratorSettings& settings = {});

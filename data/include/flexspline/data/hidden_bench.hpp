@@ -15,21 +15,21 @@ namespace flexspline::data {
 /// A drive whose laws no estimator shares: f and g^-1 odd, rising, smooth and not polynomial,
 /// h even and positive. SI; what a rig does not have is 0 (a specimen has no motor and ratio 1).
 struct HiddenGear {
-  std::string families;                        ///< which f, g^-1 and h were drawn, for the answer
-  std::function<double(double)> stiffness;     ///< f(phi), Nm
-  std::function<double(double)> damping;       ///< g^-1(phi'/h), Nm
-  std::function<double(double)> modulation;    ///< h(phi)
-  double rated_torsion = 0.0;    ///< rad, the windup under rated_torque
-  double rated_torque = 0.0;     ///< Nm, what the design's largest motion asks for
+  std::string families;                      ///< which f, g^-1 and h were drawn, for the answer
+  std::function<double(double)> stiffness;   ///< f(phi), Nm
+  std::function<double(double)> damping;     ///< g^-1(phi'/h), Nm
+  std::function<double(double)> modulation;  ///< h(phi)
+  double rated_torsion = 0.0;                ///< rad, the windup under rated_torque
+  double rated_torque = 0.0;                 ///< Nm, what the design's largest motion asks for
   double gear_ratio = 50.0;
-  double motor_inertia = 0.0;    ///< kg m2
-  double motor_drag = 0.0;       ///< Nm s/rad
-  double motor_coulomb = 0.0;    ///< Nm
+  double motor_inertia = 0.0;        ///< kg m2
+  double motor_drag = 0.0;           ///< Nm s/rad
+  double motor_coulomb = 0.0;        ///< Nm
   double motor_coulomb_speed = 1.0;  ///< rad/s: friction is coulomb w / sqrt(w^2 + this^2)
-  double load_inertia = 0.0;     ///< kg m2
-  double load_drag = 0.0;        ///< Nm s/rad
-  double load_mass = 0.0;        ///< kg, of the servo's pendulum
-  double arm_length = 0.0;       ///< m
+  double load_inertia = 0.0;         ///< kg m2
+  double load_drag = 0.0;            ///< Nm s/rad
+  double load_mass = 0.0;            ///< kg, of the servo's pendulum
+  double arm_length = 0.0;           ///< m
 };
 
 enum class HiddenMotion { sine, multisine, ramp, step_hold, staircase };
@@ -47,13 +47,13 @@ struct HiddenExcitation {
 
 /// What the instruments add. Shares of noise are of the peak torque of the same sensor.
 struct HiddenNuisances {
-  double torque_noise = 0.0;         ///< rms share, white and coloured together
-  double coloured_share = 0.0;       ///< of the noise's variance; a first-order process
-  double coloured_samples = 20.0;    ///< its correlation, in samples
-  double motor_encoder_step = 0.0;   ///< rad at the motor (torsion on a specimen); 0: not quantised
-  double load_encoder_step = 0.0;    ///< rad at the load
-  double time_jitter = 0.0;          ///< rms share of the interval; stamps tell the true instants
-  double angle_zero = 0.0;           ///< rad at the output: the torsion's zero is off by this
+  double torque_noise = 0.0;        ///< rms share, white and coloured together
+  double coloured_share = 0.0;      ///< of the noise's variance; a first-order process
+  double coloured_samples = 20.0;   ///< its correlation, in samples
+  double motor_encoder_step = 0.0;  ///< rad at the motor (torsion on a specimen); 0: not quantised
+  double load_encoder_step = 0.0;   ///< rad at the load
+  double time_jitter = 0.0;         ///< rms share of the interval; stamps tell the true instants
+  double angle_zero = 0.0;          ///< rad at the output: the torsion's zero is off by this
 };
 
 /// A whole bench, drawn or put together by hand.
@@ -86,7 +86,7 @@ struct HiddenParameter {
 /// What was concealed, as it came out.
 struct HiddenFinding {
   std::string id;
-  std::string coordinate;    ///< empty: outside the catalogue of diagnoses
+  std::string coordinate;  ///< empty: outside the catalogue of diagnoses
   HiddenEquation equation = HiddenEquation::torsion;
   double size_fraction = 0.0;  ///< measured, alone on the bench
   std::vector<HiddenParameter> parameters;
@@ -121,7 +121,7 @@ struct HiddenRow {
   std::string_view equation;  ///< as it is added here; other forms than the estimators fit
   HiddenSite site = HiddenSite::transmission;
   std::vector<Rig> rigs;
-  bool dissipates = false;    ///< what it adds takes energy from every closed cycle
+  bool dissipates = false;  ///< what it adds takes energy from every closed cycle
   HiddenLaw (*make)(const HiddenScale& scale, double amount) = nullptr;
 };
 
@@ -147,7 +147,6 @@ HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed);
 /// Not modelled: the position loop's error, torque saturation, resonances of load and gear.
 /// Errors: usage for an unknown effect, one that the rig does not have, a size that it cannot reach
 /// and a setting out of range; numerics where a torque is not finite.
-Result<HiddenDataset> run_hidden_bench(const HiddenBench& bench,
-                                       std::vector<HiddenEffect> effects);
+Result<HiddenDataset> run_hidden_bench(const HiddenBench& bench, std::vector<HiddenEffect> effects);
 
 }  // namespace flexspline::data
