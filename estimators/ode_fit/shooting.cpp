@@ -15,7 +15,9 @@ constexpr double kNoise = 1e-7;       // the same, where the integrator's noise 
 constexpr std::size_t kPatience = 5;  // passes before that counts
 
 SolverSettings solver_settings(const OdeFitSettings& settings) {
-  return {settings.max_iterations, 1e-13, 1e-13, 1};
+  return {.max_iterations = settings.max_iterations,
+          .function_tolerance = 1e-13,
+          .parameter_tolerance = 1e-13};
 }
 
 // Early passes need not settle, for their jumps are not the last.
