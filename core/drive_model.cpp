@@ -4,13 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/core/effect_dependence.hpp"
+
 namespace flexspline {
 namespace {
 
-struct Dependence {
-  Complex Instant<Complex>::*member;
-  std::string_view name;
-};
+using Dependence = NamedVariable;
 
 // Known only after the equations are solved, or not at all.
 constexpr Dependence kNeverKnown[] = {
@@ -19,32 +18,16 @@ constexpr Dependence kNeverKnown[] = {
     {&Instant<Complex>::torsion_acceleration, "acceleration"},
     {&Instant<Complex>::transmitted_torque_rate, "rate of the transmitted torque"}};
 
+// A position loop makes the motor torque; nobody gives its rate.
+constexpr Dependence kUnknownInALoop = {&Instant<Complex>::motor_torque_rate,
+                                        "rate of the motor torque"};
+
 // The torsion is what kinematics make, so they cannot follow from it.
 constexpr Dependence kUnknownToKinematics[] = {
     {&Instant<Complex>::torsion_rate, "rate of the torsion"},
     {&Instant<Complex>::transmitted_torque, "transmitted torque"},
     {&Instant<Complex>::motor_speed, "motor speed"},
     {&Instant<Complex>::load_speed, "load speed"}};
-
-// By complex steps at an instant where nothing is zero.
-bool depends(const EffectRow& row, std::span<const double> values, const Dependence& on) {
-  Instant<Complex> x;
-  double next = 0.37;
-  for (auto member :
-       {&Instant<Complex>::time, &Instant<Complex>::motor_angle, &Instant<Complex>::motor_speed,
-        &Instant<Complex>::motor_acceleration, &Instant<Complex>::load_angle,
-        &Instant<Complex>::load_speed, &Instant<Complex>::load_acceleration,
-        &Instant<Complex>::torsion_rate, &Instant<Complex>::torsion_acceleration,
-        &Instant<Complex>::transmitted_torque, &Instant<Complex>::transmitted_torque_rate,
-        &Instant<Complex>::motor_torque, &Instant<Complex>::motor_torque_rate}) {
-    x.*member = Complex(next += 0.23);
-  }
-  x.torsion = 1e-3;
-  x.*on.member += Complex(0.0, 1e-20);
-  const std::vector<Complex> p(values.begin(), values.end());
-  const std::vector<Complex> memory(state_count(row, p.size()), Complex(1e-4));
-  return row.complex.term(x, p, memory).imag() != 0.0;
-}
 
 tl::unexpected<Error> refusal(const EffectRow& row, std::string_view needs) {
   return failure(
@@ -55,17 +38,20 @@ tl::unexpected<Error> refusal(const EffectRow& row, std::string_view needs) {
       "simulate displacement-driven, or take the effect out of the model");
 }
 
-Result<void> check(const EffectRow& row, std::span<const double> values) {
+Result<void> check(const EffectRow& row, std::span<const double> values, bool closed_loop) {
   if (row.real.term == nullptr || row.map != nullptr) {
     return refusal(row, "whole signal");
   }
   if (row.states > 0 && row.real.rate == nullptr) return refusal(row, "path between samples");
   for (const Dependence& one : kNeverKnown) {
-    if (depends(row, values, one)) return refusal(row, one.name);
+    if (depends_on(row, values, one.member)) return refusal(row, one.name);
+  }
+  if (closed_loop && depends_on(row, values, kUnknownInALoop.member)) {
+    return refusal(row, kUnknownInALoop.name);
   }
   if (row.site != Site::kinematics) return {};
   for (const Dependence& one : kUnknownToKinematics) {
-    if (depends(row, values, one)) return refusal(row, one.name);
+    if (depends_on(row, values, one.member)) return refusal(row, one.name);
   }
   return {};
 }
@@ -73,7 +59,7 @@ Result<void> check(const EffectRow& row, std::span<const double> values) {
 }  // namespace
 
 Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveConstant> constants,
-                                    std::vector<Site> signals) {
+                                    std::vector<Site> signals, bool closed_loop) {
   DriveModel model;
   model.drive_ = drive;
   model.constants_ = std::move(constants);
@@ -97,8 +83,8 @@ Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveCon
     if (on_instrument((*row)->site) && std::ranges::find(signals, (*row)->site) == signals.end()) {
       continue;
     }
-    if (auto good = check(**row, *values); !good) return tl::unexpected(good.error());
-    use.follows_torsion = depends(**row, *values, {&Instant<Complex>::torsion, "torsion"});
+    if (auto good = check(**row, *values, closed_loop); !good) return tl::unexpected(good.error());
+    use.follows_torsion = depends_on(**row, *values, &Instant<Complex>::torsion);
     use.states = state_count(**row, values->size());
     model.memory_ += use.states;
     model.effects_.push_back(use);

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "flexspline/core/effect_dependence.hpp"
 #include "flexspline/core/effect_path.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/simulate.hpp"
@@ -28,6 +31,19 @@ Result<void> apply_effects(const ModelSpec& model, std::span<const Instant<doubl
   return {};
 }
 
+// The torque follows from the torsion here, so kinematics that follow the torque would be silent.
+Result<void> check_known(const EffectRow& row, const EffectSpec& spec) {
+  const auto values = parameter_values(row, spec);
+  if (!values) return tl::unexpected(values.error());
+  if (!depends_on(row, *values, &Instant<Complex>::transmitted_torque)) return {};
+  return failure(
+      ErrorCode::bad_data,
+      fmt::format("the effect {} cannot be simulated along a motion: it makes torsion out "
+                  "of the transmitted torque, which is what is simulated",
+                  row.id),
+      "take it out of the model, or put its compliance into f");
+}
+
 // Kinematics add to the torsion that the law sees; its rate by differences of what they add.
 Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> path) {
   std::vector<double> added(path.size(), 0.0);
@@ -35,6 +51,7 @@ Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> p
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
     if ((*row)->site != Site::kinematics) continue;
+    if (auto known = check_known(**row, spec); !known) return known;
     if (auto done = apply_along(**row, spec, path, added); !done) return done;
   }
   for (std::size_t i = 0; i < path.size(); ++i) {

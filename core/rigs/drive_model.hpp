@@ -24,9 +24,10 @@ struct EffectUse {
 class DriveModel {
  public:
   /// Errors: a law or effect that cannot be made, or that a forward simulation cannot carry.
-  /// signals: the instruments' effects that the rig takes into its equations.
+  /// signals: the instruments' effects that the rig takes into its equations. closed_loop: a
+  /// controller makes the motor torque.
   static Result<DriveModel> make(const DriveSpec& drive, std::vector<DriveConstant> constants,
-                                 std::vector<Site> signals);
+                                 std::vector<Site> signals, bool closed_loop = false);
 
   const DriveSpec& drive() const { return drive_; }
   std::span<const DriveConstant> constants() const { return constants_; }

@@ -62,7 +62,8 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   const auto form =
       checked_form(row, drive, inputs, name, {"gear_ratio", "motor_inertia", "load_inertia"});
   if (!form) return tl::unexpected(form.error());
-  auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
+  auto model =
+      DriveModel::make(drive, row.constants, {Site::motor_torque_signal}, name == "position_loop");
   if (!model) return tl::unexpected(model.error());
   return std::make_unique<RigSystemOf<FreeDrive>>(
       FreeDrive{std::move(*model), inputs, (*form)->states, name == "position_loop"});
