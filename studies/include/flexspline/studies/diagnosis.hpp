@@ -1,0 +1,146 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/estimate.hpp"
+#include "flexspline/core/model_spec.hpp"
+#include "flexspline/core/recording.hpp"
+
+namespace flexspline::studies {
+
+/// What a diagnosis ends with; the words of flexspline-diagnosis/1.
+enum class Verdict { adequate, explained, partly_explained, unexplained };
+
+std::string_view name_of(Verdict verdict);
+
+/// Where simulation and recording differ: an interval of a recording, and the variable in which the
+/// difference is organised.
+struct Mismatch {
+  std::string recording;
+  double from_s = kNotComputed;
+  double to_s = kNotComputed;
+  std::string coordinate;  ///< time, torsion, velocity, acceleration, motor_angle, load_angle, load,
+                           ///< lag, reversal_memory, temperature, constant
+  std::string equation;    ///< torsion, load, motor, drive: whose residual shows it
+  double share_of_excess = kNotComputed;  ///< of the misfit beyond noise that the coordinate orders
+  std::string says;
+};
+
+struct CauseParameter {
+  std::string name;
+  double value = kNotComputed;
+  double std = kNotComputed;
+  std::string unit;
+};
+
+/// What speaks for a cause, all on recordings.
+struct CauseEvidence {
+  double score_p_value = kNotComputed;
+  double holdout_rmse_ratio = kNotComputed;  ///< with it over without it, on recordings held out
+  double delta_bic = kNotComputed;           ///< with it minus without it; negative favours it
+  double ablation_ratio = kNotComputed;      ///< final model without it over final model, held out
+  double placebo_ratio = kNotComputed;       ///< the best absent effect of as many parameters
+};
+
+/// An effect that was left out of the baseline.
+struct Cause {
+  std::string effect;
+  double probability = kNotComputed;
+  double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
+  std::string equation;
+  std::vector<CauseParameter> parameters;
+  std::vector<std::string> alternatives;  ///< at most two that explain the same signal as well
+  CauseEvidence evidence;
+};
+
+/// Two effects that look alike on these recordings after the baseline has taken what it can.
+struct Confusable {
+  std::string effect;
+  std::string with;
+  double similarity = kNotComputed;  ///< |cosine| of the projected signatures
+  std::string why;
+};
+
+/// A candidate that was tried, and why it was not accepted.
+struct TriedCandidate {
+  std::string effect;
+  int round = 0;  ///< 1: first name sought
+  double misfit_removed = kNotComputed;  ///< share of the explainable misfit
+  double delta_bic = kNotComputed;
+  double holdout_rmse_ratio = kNotComputed;
+  std::string outcome;  ///< accepted, or the reason for the rejection in words
+};
+
+struct HoldoutProof {
+  double rmse_before = kNotComputed;  ///< in the effort of the recordings, SI
+  double rmse_after = kNotComputed;
+  double ratio = kNotComputed;
+  double ci95_lower = kNotComputed;
+  double ci95_upper = kNotComputed;
+  double noise_floor = kNotComputed;
+};
+
+struct NextExperiment {
+  std::vector<std::string> separates;
+  std::string excitation;
+  double amplitude = kNotComputed;  ///< rad (m) at the output
+  double frequency_hz = kNotComputed;
+  double separation_sigma = kNotComputed;
+  std::string says;
+};
+
+/// A baseline parameter before and after the causes were modelled: what had absorbed them.
+struct ParameterMove {
+  std::string name;
+  double before = kNotComputed;
+  double after = kNotComputed;
+  double std = kNotComputed;
+  std::string unit;
+};
+
+/// Series of one recording for the picture, decimated. SI.
+struct DiagnosedSeries {
+  std::string recording;
+  Split split = Split::train;
+  std::string equation;
+  std::vector<double> time, motion, rate, measured, before, after;
+};
+
+struct Diagnosis {
+  std::string dataset;
+  std::string sha256;
+  std::string baseline_model;
+  double baseline_rmse_train = kNotComputed;
+  double baseline_rmse_holdout = kNotComputed;
+  double noise_std = kNotComputed;
+  Verdict verdict = Verdict::unexplained;
+  std::string says;  ///< the verdict in a sentence
+  std::vector<Mismatch> mismatch;
+  std::vector<Cause> causes;
+  std::vector<Confusable> confusable;
+  std::vector<TriedCandidate> tried;
+  std::vector<ParameterMove> moved;
+  HoldoutProof holdout;
+  std::optional<NextExperiment> next_experiment;
+  std::vector<DiagnosedSeries> series;
+  std::vector<std::string> notes;
+  std::optional<ModelSpec> model;  ///< the baseline with the accepted effects, where there is one
+  DisplayUnits display;
+  double seconds = kNotComputed;
+};
+
+/// Told of each stage as it begins, for a progress line: share done in [0, 1] and what it is.
+using DiagnosisProgress = std::function<void(double, std::string_view)>;
+
+/// Locates where the baseline of the rig and the recordings differ, names what was left out, models
+/// it and proves it on recordings held out. It uses the recordings, the bench's constants and the
+/// catalogue of effects; no names, and nothing of the order in which recordings or columns stand.
+/// Errors: recordings that are not usable (data), numerics.
+Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress = {});
+
+}  // namespace flexspline::studies
