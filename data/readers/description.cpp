@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "flexspline/core/nearest_name.hpp"
 #include "readers/description_parts.hpp"
@@ -111,7 +112,10 @@ void read_recordings(TomlReader& reader, const toml::table& root,
                                         &Channel::quantity) != description.channels.end();
   const toml::array* list = reader.list(root, "recording");
   if (list != nullptr) {
-    description.recordings = parse_recordings(reader, *list, folder, linear, notes);
+    ParsedRecordings parsed = parse_recordings(reader, *list, folder, linear);
+    description.recordings = std::move(parsed.entries);
+    description.set.notes = std::move(parsed.decisions);
+    std::ranges::move(parsed.notes, std::back_inserter(notes));
   }
   if (root.contains("recording") && (list == nullptr || !list->empty())) return;
   reader.refuse(root.source(), "no recording", "add [[recording]] with id and file");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "flexspline/core/nearest_name.hpp"
 #include "readers/description_parts.hpp"
@@ -105,56 +104,108 @@ std::optional<RecordingEntry> parse_recording(TomlReader& reader, const toml::ta
   return RecordingEntry{std::move(recording), *path};
 }
 
-/// Says when a value that ought to be unique was given before, and where.
-class SeenBefore {
+int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+std::string text_of(const toml::table& entry, std::string_view key) {
+  return entry[key].value<std::string>().value_or("");
+}
+
+double start_of(const toml::table& entry) { return entry["start_s"].value_or(0.0); }
+
+/// One table listed for two passes over the same excitation: all is said twice, but for start_s.
+bool is_other_pass(const toml::table& one, const toml::table& other) {
+  toml::table left = one;
+  toml::table right = other;
+  left.erase("start_s");
+  right.erase("start_s");
+  return left == right && start_of(one) != start_of(other);
+}
+
+/// The [[recording]]s of a file one after the other, and what each repeats of those before it.
+class RecordingList {
  public:
-  std::optional<int> line_of(const std::string& value, int line) {
-    const auto [place, is_new] = lines_.emplace(value, line);
-    return is_new ? std::nullopt : std::optional<int>(place->second);
+  RecordingList(TomlReader& reader, const std::filesystem::path& folder, bool linear,
+                ParsedRecordings& parsed)
+      : reader_(reader), folder_(folder), linear_(linear), parsed_(parsed) {}
+
+  void add(const toml::table& entry) {
+    const toml::table* before = first_with("id", entry);
+    if (before != nullptr && is_other_pass(*before, entry)) {
+      merge(*before, entry);
+      return;
+    }
+    if (before != nullptr) refuse_id(*before, entry);
+    if (const toml::table* same = first_with("file", entry)) note_file(*same, entry);
+    seen_.push_back(&entry);
+    auto recording = parse_recording(reader_, entry, folder_, linear_);
+    if (recording) parsed_.entries.push_back(*std::move(recording));
   }
 
  private:
-  std::map<std::string, int> lines_;
-};
+  const toml::table* first_with(std::string_view key, const toml::table& entry) const {
+    const std::string value = text_of(entry, key);
+    const auto found = std::ranges::find_if(
+        seen_, [&](const toml::table* other) { return text_of(*other, key) == value; });
+    return value.empty() || found == seen_.end() ? nullptr : *found;
+  }
 
-int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+  /// Both passes went into the one table, where the later has overwritten the earlier.
+  void merge(const toml::table& before, const toml::table& entry) {
+    const std::string id = text_of(entry, "id");
+    const auto found = std::ranges::find(
+        parsed_.entries, id, [](const RecordingEntry& parsed) { return parsed.recording.id; });
+    if (found == parsed_.entries.end()) return;  // refused already
+    double& start = found->recording.start_s;
+    const double listed = reader_.number(entry, "start_s").value_or(0.0);
+    const std::string says = fmt::format(
+        "recording '{}' is listed for passes at {} s and {} s with one file: it is read once, as "
+        "of the later",
+        id, start, listed);
+    start = std::max(start, listed);
+    parsed_.decisions.push_back(says);
+    parsed_.notes.push_back(reader_.at(
+        entry.get("id")->source(), fmt::format("{} (the other on line {})", says, line_of(before)),
+        "give each pass an id and a file of its own"));
+  }
+
+  void refuse_id(const toml::table& before, const toml::table& entry) {
+    const toml::node& id = *entry.get("id");
+    reader_.refuse(id.source(),
+                   fmt::format("two recordings have the id '{}', the other on line {}",
+                               text_of(entry, "id"), line_of(*before.get("id"))),
+                   "give each recording an id of its own");
+  }
+
+  void note_file(const toml::table& before, const toml::table& entry) {
+    const toml::node& file = *entry.get("file");
+    parsed_.notes.push_back(
+        reader_.at(file.source(),
+                   fmt::format("file '{}' is the table of line {} too", text_of(entry, "file"),
+                               line_of(*before.get("file"))),
+                   "the same samples count twice, and may be fitted and held out at once"));
+  }
+
+  TomlReader& reader_;
+  const std::filesystem::path& folder_;
+  bool linear_;
+  ParsedRecordings& parsed_;
+  std::vector<const toml::table*> seen_;
+};
 
 }  // namespace
 
-std::vector<RecordingEntry> parse_recordings(TomlReader& reader, const toml::array& list,
-                                             const std::filesystem::path& folder, bool linear,
-                                             std::vector<Finding>& notes) {
-  std::vector<RecordingEntry> entries;
-  SeenBefore ids;
-  SeenBefore files;
+ParsedRecordings parse_recordings(TomlReader& reader, const toml::array& list,
+                                  const std::filesystem::path& folder, bool linear) {
+  ParsedRecordings parsed;
+  RecordingList recordings(reader, folder, linear, parsed);
   for (const toml::node& node : list) {
-    const toml::table* entry = node.as_table();
-    if (entry == nullptr) {
+    if (const toml::table* entry = node.as_table()) {
+      recordings.add(*entry);
+    } else {
       reader.refuse(node.source(), "a recording is not a table", "write [[recording]] above it");
-      continue;
-    }
-    if (auto parsed = parse_recording(reader, *entry, folder, linear)) {
-      entries.push_back(*std::move(parsed));
-    }
-    if (const toml::node* id = entry->get("id"); id != nullptr && id->is_string()) {
-      const std::string name = id->value_or(std::string());
-      if (const auto line = ids.line_of(name, line_of(*id))) {
-        reader.refuse(
-            id->source(),
-            fmt::format("two recordings have the id '{}', the other on line {}", name, *line),
-            "give each recording an id of its own");
-      }
-    }
-    if (const toml::node* name = entry->get("file"); name != nullptr && name->is_string()) {
-      const std::string path = name->value_or(std::string());
-      if (const auto line = files.line_of(path, line_of(*name))) {
-        notes.push_back(reader.at(
-            name->source(), fmt::format("file '{}' is the table of line {} too", path, *line),
-            "the same samples count twice, and may be fitted and held out at once"));
-      }
     }
   }
-  return entries;
+  return parsed;
 }
 
 }  // namespace flexspline::data

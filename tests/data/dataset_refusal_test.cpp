@@ -73,6 +73,18 @@ const Refusal kInDescription[] = {
     {"id_twice", "frequency_hz = 0.5",
      "frequency_hz = 0.5\n[[recording]]\nid = \"a\"\nfile = \"a.csv\"", false, "dataset.toml:21:6",
      "two recordings have the id 'a', the other on line 15"},
+    {"pass_without_start", "[[recording]]",
+     "[[recording]]\nid = \"a\"\nfile = \"a.csv\"\nexcitation = \"sine\"\namplitude_deg = 0.2\n"
+     "frequency_hz = 0.5\n[[recording]]",
+     false, "dataset.toml:21:6", "two recordings have the id 'a', the other on line 15"},
+    {"pass_of_another_file", "[[recording]]",
+     "[[recording]]\nid = \"a\"\nfile = \"./a.csv\"\nexcitation = \"sine\"\n"
+     "amplitude_deg = 0.2\nfrequency_hz = 0.5\nstart_s = 9\n[[recording]]",
+     false, "dataset.toml:22:6", "two recordings have the id 'a', the other on line 15"},
+    {"pass_at_another_rate", "[[recording]]",
+     "[[recording]]\nid = \"a\"\nfile = \"a.csv\"\nexcitation = \"sine\"\namplitude_deg = 0.2\n"
+     "frequency_hz = 0.6\nstart_s = 9\n[[recording]]",
+     false, "dataset.toml:22:6", "two recordings have the id 'a', the other on line 15"},
     {"file_absent", "file = \"a.csv\"", "", false, "dataset.toml:14:1", "no 'file'"},
     {"file_missing", "\"a.csv\"", "\"b.csv\"", false, "dataset.toml:16:8",
      "file 'b.csv' is not there"},

@@ -86,6 +86,7 @@ struct RecordingSet {
   std::map<std::string, double> constants;  ///< by the key of the file, SI by its suffix
   DisplayUnits display;
   std::vector<Recording> recordings;
+  std::vector<std::string> notes;  ///< what had to be decided in reading, for the person to know
 };
 
 /// What the torsion law sees of a recording: effort over motion.
