@@ -1,4 +1,4 @@
-#include "readers/content_hash.hpp"
+#include "flexspline/data/dataset.hpp"
 
 #include <algorithm>
 #include <bit>

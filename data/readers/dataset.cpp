@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/write_file.hpp"
-#include "readers/content_hash.hpp"
 #include "readers/description.hpp"
 #include "readers/recording_table.hpp"
 

@@ -37,6 +37,12 @@ DatasetReading read_dataset(const std::filesystem::path& folder);
 /// Errors: input_missing when there is no such folder or description, bad_data with every finding.
 Result<RecordingSet> load_dataset(const std::filesystem::path& folder);
 
+/// SHA-256 of what the recordings say: rig, constants, and of every recording, by id, its split,
+/// nominal excitation and samples in SI. Names of folders, files and columns, their order and
+/// remarks do not count. Values are rounded to 30 binary digits (1e-9), so that the same data
+/// written in another unit hash alike but for one rounding in four million values.
+std::string content_hash(const RecordingSet& set);
+
 /// Writes a data set: dataset.toml and one CSV a recording, each written whole and renamed.
 Result<void> write_dataset(const std::filesystem::path& folder, const RecordingSet& set);
 
