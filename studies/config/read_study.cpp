@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "config/study_reader.hpp"
-#include "flexspline/core/write_file.hpp"
+#include "config/toml_root.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -11,11 +11,7 @@ namespace {
 constexpr std::string_view kSchema = "flexspline-study/1";
 
 void read_head(TomlSection& root, StudyConfig& study) {
-  const std::string schema = root.required_text("schema");
-  if (!schema.empty() && schema != kSchema) {
-    root.refuse("schema", fmt::format("schema \"{}\" is not known", schema),
-                fmt::format("write schema = \"{}\"", kSchema));
-  }
+  check_schema(root, kSchema);
   study.name = root.required_text("name");
   study.title = root.text("title").value_or(study.name);
   constexpr std::int64_t kLargestSeed = 1LL << 53;
@@ -53,18 +49,6 @@ StudyConfig read_tables(TomlSection& root, const std::filesystem::path& data_roo
   return study;
 }
 
-std::string joined(const std::vector<data::Finding>& findings) {
-  std::string text;
-  for (const data::Finding& finding : findings) {
-    text += (text.empty() ? "" : "\n") + finding.message();
-  }
-  return text;
-}
-
-bool earlier(const data::Finding& a, const data::Finding& b) {
-  return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-}
-
 }  // namespace
 
 const Grid* StudyConfig::find_grid(std::string_view id) const {
@@ -79,23 +63,14 @@ const InputConfig* StudyConfig::find_input(std::string_view id) const {
 
 Result<StudyReading> read_study(const std::filesystem::path& file,
                                 const std::filesystem::path& data_root) {
-  const Result<std::string> content = read_file(file);
-  if (!content) return tl::unexpected(content.error());
-  StudyReading reading;
-  try {
-    const toml::table parsed = toml::parse(*content, file.string());
-    TomlSection root(parsed, "", file.string(), reading.errors);
-    StudyConfig study = read_tables(root, data_root.empty() ? file.parent_path() : data_root);
-    study.file = file;
-    std::ranges::stable_sort(reading.errors, earlier);
-    if (reading.errors.empty()) reading.study = std::move(study);
-  } catch (const toml::parse_error& error) {
-    reading.errors.push_back({.file = file.string(),
-                              .line = static_cast<int>(error.source().begin.line),
-                              .column = static_cast<int>(error.source().begin.column),
-                              .problem = std::string(error.description()),
-                              .remedy = "the file is not TOML 1.0 from here on"});
-  }
+  StudyConfig study;
+  auto findings = read_toml_root(file, [&](TomlSection& root) {
+    study = read_tables(root, data_root.empty() ? file.parent_path() : data_root);
+  });
+  if (!findings) return tl::unexpected(findings.error());
+  StudyReading reading{std::nullopt, *std::move(findings)};
+  study.file = file;
+  if (reading.errors.empty()) reading.study = std::move(study);
   return reading;
 }
 
@@ -103,7 +78,7 @@ Result<StudyConfig> load_study(const std::filesystem::path& file,
                                const std::filesystem::path& data_root) {
   Result<StudyReading> reading = read_study(file, data_root);
   if (!reading) return tl::unexpected(reading.error());
-  if (!reading->study) return failure(ErrorCode::bad_data, joined(reading->errors));
+  if (!reading->study) return tl::unexpected(as_error(reading->errors));
   return std::move(*reading->study);
 }
 

@@ -1,0 +1,95 @@
+#include <cctype>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "flexspline/studies/conceal.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// "stiffness_Nm_rad".
+std::string key_of(const data::HiddenParameter& parameter) {
+  std::string key = parameter.name;
+  if (!parameter.unit.empty()) key += "_" + parameter.unit;
+  for (char& letter : key) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+  }
+  return key;
+}
+
+std::optional<data::HiddenEquation> find_equation(const std::string& name) {
+  using enum data::HiddenEquation;
+  for (const data::HiddenEquation one : {torsion, load, motor, drive}) {
+    if (data::name_of(one) == name) return one;
+  }
+  return std::nullopt;
+}
+
+data::HiddenFinding finding(const ordered_json& answer, std::size_t index) {
+  data::HiddenFinding found;
+  found.id = answer.at("effects").at(index).get<std::string>();
+  found.size_fraction = answer.at("size").at(index).get<double>();
+  const ordered_json& coordinate = answer.at("coordinate").at(index);
+  if (coordinate.is_string()) found.coordinate = coordinate.get<std::string>();
+  if (answer.contains("equation")) {
+    found.equation = find_equation(answer["equation"].at(index)).value_or(found.equation);
+  }
+  return found;
+}
+
+}  // namespace
+
+ordered_json to_json(const ConcealedAnswer& answer) {
+  ordered_json json = {{"rig", name_of(answer.rig)},
+                       {"effects", ordered_json::array()},
+                       {"size", ordered_json::array()},
+                       {"coordinate", ordered_json::array()},
+                       {"info", ordered_json::object()},
+                       {"noise_std_nm", answer.noise_std},
+                       {"twins", answer.twins},
+                       {"tau_max", answer.peak_torque},
+                       {"equation", ordered_json::array()},
+                       {"best_rmse_nm", answer.best_rmse},
+                       {"seed", answer.seed},
+                       {"dataset_sha256", answer.dataset_sha256}};
+  for (const data::HiddenFinding& effect : answer.effects) {
+    json["effects"].push_back(effect.id);
+    json["size"].push_back(effect.size_fraction);
+    json["coordinate"].push_back(effect.coordinate.empty() ? ordered_json(nullptr)
+                                                           : ordered_json(effect.coordinate));
+    json["equation"].push_back(data::name_of(effect.equation));
+    json["info"][effect.id] = ordered_json::object();
+    for (const data::HiddenParameter& parameter : effect.parameters) {
+      json["info"][effect.id][key_of(parameter)] = parameter.value;
+    }
+  }
+  return json;
+}
+
+Result<ConcealedAnswer> answer_from_json(const ordered_json& json) {
+  try {
+    ConcealedAnswer answer;
+    const std::string rig = json.at("rig").get<std::string>();
+    const auto found = find_rig(rig);
+    if (!found) return failure(ErrorCode::bad_data, fmt::format("unknown rig '{}'", rig));
+    answer.rig = *found;
+    for (std::size_t k = 0; k < json.at("effects").size(); ++k) {
+      answer.effects.push_back(finding(json, k));
+    }
+    answer.twins = json.at("twins").get<std::vector<std::string>>();
+    answer.noise_std = json.at("noise_std_nm").get<double>();
+    answer.peak_torque = json.at("tau_max").get<double>();
+    answer.best_rmse = json.value("best_rmse_nm", answer.noise_std);
+    answer.seed = json.value("seed", answer.seed);
+    answer.dataset_sha256 = json.value("dataset_sha256", "");
+    return answer;
+  } catch (const nlohmann::json::exception& error) {
+    return failure(ErrorCode::bad_data, fmt::format("the answer cannot be read: {}", error.what()),
+                   "it has the keys of docs/trials.md");
+  }
+}
+
+}  // namespace flexspline::studies

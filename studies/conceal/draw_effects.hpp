@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "flexspline/studies/conceal.hpp"
+
+namespace flexspline::studies {
+
+enum class ConcealKind { none, one, two, unknown };
+
+/// The kind at a share u in [0, 1) of the probabilities' sum.
+ConcealKind kind_at(const ConcealDraw& draw, double u);
+
+/// What may be drawn on a rig, catalogued.
+std::vector<std::string> drawable(const ConcealDraw& draw, Rig rig);
+
+/// Those that can stand beside the first of a pair: neither itself nor a structural twin.
+std::vector<std::string> partners(const std::vector<std::string>& ids, std::string_view first,
+                                  Rig rig);
+
+/// A size, uniform in the range.
+double draw_size(const ConcealDraw& draw, std::uint64_t seed, std::uint64_t index);
+
+/// What one bench hides.
+std::vector<data::HiddenEffect> draw_effects(const ConcealDraw& draw, Rig rig, std::uint64_t seed);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/data/dataset.hpp"
+#include "flexspline/data/hidden_bench.hpp"
+
+namespace flexspline::studies {
+
+/// What is hidden when it is drawn. The probabilities are relative to their sum.
+struct ConcealDraw {
+  double none = 0.3;
+  double one = 0.5;
+  double two = 0.1;
+  double unknown = 0.1;    ///< one effect that no catalogue has
+  double smallest = 0.02;  ///< size, share of peak torque
+  double largest = 0.10;
+  std::vector<std::string> effects;  ///< to draw from; empty: all that the rig can conceal
+};
+
+/// A bench with something to conceal, as read. SI.
+struct ConcealPlan {
+  std::filesystem::path file;
+  Rig rig = Rig::locked;
+  std::uint64_t seed = 1;
+  std::vector<data::HiddenEffect> effects;     ///< empty: nothing is hidden
+  std::optional<ConcealDraw> draw;             ///< instead of effects
+  std::vector<data::HiddenExcitation> design;  ///< empty: drawn
+  std::map<std::string, double> nuisances;     ///< what is to differ from the drawn, SI
+};
+
+/// A bench description as far as it could be read: everything wrong at once.
+struct ConcealReading {
+  std::optional<ConcealPlan> plan;  ///< present only when there are no errors
+  std::vector<data::Finding> errors;
+};
+
+/// Reads a bench of format "flexspline-bench/1" (docs/trials.md).
+/// Errors: input_missing when the file cannot be read. What is wrong in it is in the reading.
+Result<ConcealReading> read_conceal_plan(const std::filesystem::path& file);
+
+/// The same for callers that go no further on a failure.
+/// Errors: input_missing, or bad_data with every finding.
+Result<ConcealPlan> load_conceal_plan(const std::filesystem::path& file);
+
+/// Two effects that leave the same signal on a rig, whatever is recorded of it.
+struct StructuralTwin {
+  std::string_view effect;
+  std::string_view twin;
+  std::vector<Rig> rigs;
+  std::string_view reason;
+};
+
+std::span<const StructuralTwin> structural_twins();
+std::vector<std::string> twins_of(std::string_view effect, Rig rig);
+
+/// Ids that a rig can conceal: the catalogued ones, or those outside every catalogue.
+std::vector<std::string> concealable(Rig rig, bool catalogued);
+
+/// The truth of a concealed case. Torques in Nm.
+struct ConcealedAnswer {
+  Rig rig = Rig::locked;
+  std::uint64_t seed = 0;
+  std::vector<data::HiddenFinding> effects;  ///< by id; empty: nothing
+  std::vector<std::string> twins;
+  double noise_std = 0.0;    ///< of the torque that is the rig's effort
+  double peak_torque = 0.0;  ///< of the same
+  double best_rmse = 0.0;    ///< what the true drive leaves of it: noise as it fell
+  std::string dataset_sha256;
+};
+
+/// Keys as those of practice cases: rig, effects, size, coordinate, info, noise_std_nm, twins,
+/// tau_max; and seed, equation, best_rmse_nm, dataset_sha256.
+nlohmann::ordered_json to_json(const ConcealedAnswer& answer);
+
+/// What scoring needs of an answer. Errors: bad_data, naming the key.
+Result<ConcealedAnswer> answer_from_json(const nlohmann::ordered_json& answer);
+
+/// Recordings that say nothing of what is hidden: the set is called "case", recordings are named by
+/// their excitation and stand in an order drawn from the seed alone.
+struct ConcealedCase {
+  RecordingSet recordings;
+  ConcealedAnswer answer;
+};
+
+/// Runs the virtual bench. Deterministic by the plan.
+/// Errors: those of data::run_hidden_bench.
+Result<ConcealedCase> conceal(const ConcealPlan& plan);
+
+/// Writes DIR/dataset, DIR/commitment.json and DIR/answer.sealed.json, the answer last.
+/// Errors: cannot_write; bad_data where the data set does not read back.
+Result<void> write_concealed(const std::filesystem::path& folder, ConcealedCase concealed,
+                             const std::string& salt);
+
+}  // namespace flexspline::studies

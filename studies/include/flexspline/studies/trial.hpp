@@ -1,0 +1,149 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flexspline/studies/conceal.hpp"
+#include "flexspline/studies/diagnosis.hpp"
+#include "flexspline/studies/run.hpp"
+
+namespace flexspline::studies {
+
+inline constexpr std::string_view kTrialCaseSchema = "flexspline-trial-case/1";
+inline constexpr std::string_view kTrialResultSchema = "flexspline-trial-result/1";
+
+/// A blind trial as read. SI.
+struct TrialConfig {
+  std::filesystem::path file;
+  std::string name;
+  std::string title;
+  std::uint64_t seed = 1;
+  std::vector<Rig> rigs;
+  int cases = 0;
+  double time_limit = 180.0;  ///< s; a diagnosis that takes longer has failed
+  ConcealDraw draw;
+  std::map<std::string, double> nuisances;
+};
+
+/// A trial as far as it could be read: everything wrong at once.
+struct TrialReading {
+  std::optional<TrialConfig> trial;  ///< present only when there are no errors
+  std::vector<data::Finding> errors;
+};
+
+/// Reads a trial of format "flexspline-trial/1" (docs/trials.md).
+/// Errors: input_missing when the file cannot be read. What is wrong in it is in the reading.
+Result<TrialReading> read_trial(const std::filesystem::path& file);
+
+/// The same for callers that go no further on a failure.
+/// Errors: input_missing, or bad_data with every finding.
+Result<TrialConfig> load_trial(const std::filesystem::path& file);
+
+/// One bench of a trial. Depends on the trial's seed and the case's number alone, not on how many
+/// cases there are.
+struct TrialCase {
+  std::string key;  ///< "case-0007"
+  ConcealPlan plan;
+};
+
+/// Rigs take turns; kinds come in their shares, evenly spread; every rig's effects come in turn, in
+/// an order of their own, so that all are tried about equally often.
+std::vector<TrialCase> plan_trial(const TrialConfig& trial);
+
+/// What a case was, by what it hides.
+enum class CaseKind { null, single, pair, unknown };
+
+std::string_view name_of(CaseKind kind);
+
+/// A diagnosis held against the truth. An effect counts as found when it, a structural twin of it,
+/// or one of these among the first two alternatives is named.
+struct CaseScore {
+  CaseKind kind = CaseKind::null;
+  bool failed = false;       ///< no diagnosis
+  bool null_right = false;   ///< null: adequate, and no name
+  bool detected = false;     ///< the verdict is not adequate
+  bool first_right = false;  ///< single: the first name is the effect
+  bool exact = false;        ///< single: and the only one
+  bool pair_both = false;
+  bool pair_one = false;
+  bool unknown_right = false;   ///< unknown: something is left out, and has no name
+  int named = 0;                ///< causes
+  int false_names = 0;          ///< causes that are not there
+  bool located = false;         ///< a right coordinate among the first three mismatches
+  bool has_coordinate = false;  ///< the truth has one
+  std::string first_name;       ///< "adequate", "no name", or an effect; a twin is the truth
+  double after_over_noise = kNotComputed;  ///< hold-out after over the noise; named cases
+  double after_over_best = kNotComputed;   ///< over what the true drive leaves
+  double gain_share = kNotComputed;        ///< (before - after) / (before - best)
+};
+
+/// Scores one case. diagnosis = nullptr: it failed.
+CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis);
+
+/// A scored case among others.
+struct ScoredCase {
+  std::string key;
+  ConcealedAnswer answer;
+  std::string verdict;  ///< or "failed"
+  std::vector<std::string> named;
+  CaseScore score;
+  double seconds = kNotComputed;
+  std::string failure;  ///< why there is no diagnosis
+};
+
+/// An interval that contains a probability with 95 % confidence (Clopper and Pearson), from so many
+/// successes in so many trials. [0, 1] without trials.
+struct Proportion {
+  int count = 0;
+  int of = 0;
+  double lower = 0.0;
+  double upper = 1.0;
+
+  double rate() const { return of > 0 ? static_cast<double>(count) / of : kNotComputed; }
+};
+
+Proportion proportion(int count, int of);
+
+/// The counters of a set of cases, under the names of docs/trials.md.
+struct TrialScores {
+  std::vector<std::pair<std::string, int>> counters;
+  std::vector<std::pair<std::string, Proportion>> rates;
+  std::vector<std::pair<std::string, double>> medians;  ///< and seconds_max
+
+  int counter(std::string_view name) const;
+  Proportion rate(std::string_view name) const;
+  double median(std::string_view name) const;
+};
+
+TrialScores score_trial(const std::vector<ScoredCase>& cases);
+
+/// Diagnoses recordings; a trial is told which, so that it can be tried with others.
+using Diagnose =
+    std::function<Result<Diagnosis>(const RecordingSet&, const DiagnosisProgress& progress)>;
+
+/// Where and how a trial runs.
+struct TrialSettings {
+  RunSettings run;
+  bool keep_recordings = false;  ///< writes every data set into DIR/recordings/<key>
+  std::string salt;              ///< for tests: salts are derived from it; empty: fresh ones
+};
+
+/// What a trial did, with every case that is there.
+struct TrialSummary {
+  RunSummary run;  ///< failed: diagnoses that failed
+  std::vector<ScoredCase> cases;
+  std::vector<std::string> not_concealed;  ///< "key: reason": not scored
+};
+
+/// Runs what the folder does not yet hold: conceals each case, writes its commitment, has it
+/// diagnosed, unseals and scores it, and writes DIR/cases/<key>.json; then DIR/trial.json and
+/// DIR/tables, unless it was interrupted.
+/// Errors: cannot_write.
+Result<TrialSummary> run_trial(const TrialConfig& trial, const TrialSettings& settings,
+                               const Diagnose& diagnose = studies::diagnose);
+
+}  // namespace flexspline::studies

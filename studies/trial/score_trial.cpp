@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "flexspline/studies/trial.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Counts = std::function<bool(const CaseScore&)>;
+
+int count(const std::vector<ScoredCase>& cases, const Counts& counts) {
+  return static_cast<int>(
+      std::ranges::count_if(cases, [&counts](const ScoredCase& one) { return counts(one.score); }));
+}
+
+int sum(const std::vector<ScoredCase>& cases, int CaseScore::*member) {
+  int total = 0;
+  for (const ScoredCase& one : cases) total += one.score.*member;
+  return total;
+}
+
+Counts is(CaseKind kind) {
+  return [kind](const CaseScore& score) { return score.kind == kind; };
+}
+
+/// The upper one of two in the middle, as the practice cases are scored.
+double median_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return kNotComputed;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+void add_counters(const std::vector<ScoredCase>& cases, TrialScores& scores) {
+  const auto add = [&](const char* name, int value) { scores.counters.emplace_back(name, value); };
+  const auto add_if = [&](const char* name, bool CaseScore::*member) {
+    add(name, count(cases, [member](const CaseScore& score) { return score.*member; }));
+  };
+  add("cases", static_cast<int>(cases.size()));
+  add_if("failed", &CaseScore::failed);
+  add("null", count(cases, is(CaseKind::null)));
+  add_if("null_ok", &CaseScore::null_right);
+  add("single", count(cases, is(CaseKind::single)));
+  add_if("single_top", &CaseScore::first_right);
+  add_if("single_exact", &CaseScore::exact);
+  add("pair", count(cases, is(CaseKind::pair)));
+  add_if("pair_all", &CaseScore::pair_both);
+  add_if("pair_one", &CaseScore::pair_one);
+  add("unknown", count(cases, is(CaseKind::unknown)));
+  add_if("unknown_ok", &CaseScore::unknown_right);
+  add("false_names", sum(cases, &CaseScore::false_names));
+  add("named", sum(cases, &CaseScore::named));
+  add_if("coord", &CaseScore::has_coordinate);
+  add_if("coord_ok", &CaseScore::located);
+}
+
+void add_rates(const std::vector<ScoredCase>& cases, TrialScores& scores) {
+  const auto add = [&](const char* name, const char* part, const char* whole) {
+    scores.rates.emplace_back(name, proportion(scores.counter(part), scores.counter(whole)));
+  };
+  add("null_ok", "null_ok", "null");
+  add("single_top", "single_top", "single");
+  add("single_exact", "single_exact", "single");
+  add("pair_all", "pair_all", "pair");
+  add("pair_one", "pair_one", "pair");
+  add("unknown_ok", "unknown_ok", "unknown");
+  add("coord_ok", "coord_ok", "coord");
+  const int falsely = count(cases, [](const CaseScore& score) { return score.false_names > 0; });
+  const int diagnosed = scores.counter("cases") - scores.counter("failed");
+  scores.rates.emplace_back("false_name", proportion(falsely, diagnosed));
+}
+
+/// Where there are locked rigs, of these alone: there the effort is one sensor's, whose noise is
+/// known, and practice cases are scored so.
+double median_of(const std::vector<ScoredCase>& cases, double CaseScore::*member) {
+  const auto locked = [](const ScoredCase& one) { return one.answer.rig == Rig::locked; };
+  const bool any = std::ranges::any_of(cases, locked);
+  std::vector<double> values;
+  for (const ScoredCase& one : cases) {
+    if (!any || locked(one)) values.push_back(one.score.*member);
+  }
+  return median_of(std::move(values));
+}
+
+void add_medians(const std::vector<ScoredCase>& cases, TrialScores& scores) {
+  std::vector<double> seconds;
+  for (const ScoredCase& one : cases) {
+    if (std::isfinite(one.seconds)) seconds.push_back(one.seconds);
+  }
+  scores.medians = {
+      {"holdout_after_over_noise_median", median_of(cases, &CaseScore::after_over_noise)},
+      {"holdout_after_over_best_median", median_of(cases, &CaseScore::after_over_best)},
+      {"gain_share_median", median_of(cases, &CaseScore::gain_share)},
+      {"seconds_median", median_of(seconds)},
+      {"seconds_max", seconds.empty() ? kNotComputed : *std::ranges::max_element(seconds)}};
+}
+
+template <class Value>
+Value find(const std::vector<std::pair<std::string, Value>>& list, std::string_view name) {
+  const auto found = std::ranges::find(list, name, &std::pair<std::string, Value>::first);
+  expects(found != list.end(), "a score of this name is counted");
+  return found->second;
+}
+
+}  // namespace
+
+int TrialScores::counter(std::string_view name) const { return find(counters, name); }
+Proportion TrialScores::rate(std::string_view name) const { return find(rates, name); }
+double TrialScores::median(std::string_view name) const { return find(medians, name); }
+
+TrialScores score_trial(const std::vector<ScoredCase>& cases) {
+  TrialScores scores;
+  add_counters(cases, scores);
+  add_rates(cases, scores);
+  add_medians(cases, scores);
+  return scores;
+}
+
+}  // namespace flexspline::studies

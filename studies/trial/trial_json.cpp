@@ -1,0 +1,106 @@
+#include "trial/trial_json.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace flexspline::studies {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json scores_json(const TrialScores& scores) {
+  ordered_json json = ordered_json::object();
+  for (const auto& [name, value] : scores.counters) json[name] = value;
+  for (const auto& [name, value] : scores.medians) json[name] = value;
+  for (const auto& [name, one] : scores.rates) {
+    json["rates"][name] = {{"count", one.count},
+                           {"of", one.of},
+                           {"rate", one.rate()},
+                           {"ci95", {one.lower, one.upper}}};
+  }
+  return json;
+}
+
+ordered_json case_json(const ScoredCase& one) {
+  ordered_json json = {
+      {"key", one.key},
+      {"rig", name_of(one.answer.rig)},
+      {"effects", ordered_json::array()},
+      {"size", ordered_json::array()},
+      {"verdict", one.verdict},
+      {"named", one.named},
+      {"right",
+       one.score.null_right || one.score.exact || one.score.pair_both || one.score.unknown_right},
+      {"after_over_noise", one.score.after_over_noise},
+      {"seconds", one.seconds},
+      {"failure", one.failure.empty() ? ordered_json(nullptr) : ordered_json(one.failure)}};
+  for (const data::HiddenFinding& effect : one.answer.effects) {
+    json["effects"].push_back(effect.id);
+    json["size"].push_back(effect.size_fraction);
+  }
+  return json;
+}
+
+ordered_json twins_json(const TrialConfig& trial) {
+  ordered_json list = ordered_json::array();
+  for (const StructuralTwin& row : structural_twins()) {
+    for (const Rig rig : row.rigs) {
+      if (std::ranges::find(trial.rigs, rig) == trial.rigs.end()) continue;
+      list.push_back({{"rig", name_of(rig)},
+                      {"effect", row.effect},
+                      {"twin", row.twin},
+                      {"reason", row.reason}});
+    }
+  }
+  return list;
+}
+
+void add_groups(const std::vector<ScoredCase>& cases, ordered_json& json) {
+  json["by_size"] = ordered_json::array();
+  for (const SizeBin& bin : detection_by_size(cases)) {
+    json["by_size"].push_back({{"from", bin.from},
+                               {"to", bin.to},
+                               {"cases", bin.cases},
+                               {"detected", bin.detected},
+                               {"single_top", bin.first_right},
+                               {"single_exact", bin.exact}});
+  }
+  json["by_effect"] = ordered_json::array();
+  for (const auto& [group, some] : by_effect(cases)) {
+    ordered_json row = scores_json(score_trial(some));
+    json["by_effect"].push_back({{"rig", group.first}, {"effect", group.second}});
+    for (const char* key : {"cases", "failed", "single_top", "single_exact", "coord", "coord_ok",
+                            "holdout_after_over_noise_median"}) {
+      json["by_effect"].back()[key] = row[key];
+    }
+  }
+  json["confusion"] = ordered_json::array();
+  for (const auto& [labels, count] : confusion_of(cases)) {
+    json["confusion"].push_back(
+        {{"truth", labels.first}, {"named", labels.second}, {"count", count}});
+  }
+}
+
+}  // namespace
+
+ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary) {
+  ordered_json json = {{"schema", kTrialResultSchema},
+                       {"name", trial.name},
+                       {"title", trial.title},
+                       {"seed", trial.seed},
+                       {"scores", scores_json(score_trial(summary.cases))},
+                       {"by_rig", ordered_json::object()}};
+  for (const Rig rig : trial.rigs) {
+    json["by_rig"][std::string(name_of(rig))] =
+        scores_json(score_trial(of_rig(summary.cases, rig)));
+  }
+  add_groups(summary.cases, json);
+  json["twins"] = twins_json(trial);
+  json["not_concealed"] = summary.not_concealed;
+  json["cases"] = ordered_json::array();
+  for (const ScoredCase& one : summary.cases) json["cases"].push_back(case_json(one));
+  return json;
+}
+
+}  // namespace flexspline::studies
