@@ -1,6 +1,9 @@
 #include "rigs/drive_model.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numbers>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -18,14 +21,14 @@ constexpr Dependence kNeverKnown[] = {
     {&Instant<Complex>::torsion_acceleration, "acceleration"},
     {&Instant<Complex>::transmitted_torque_rate, "rate of the transmitted torque"}};
 
-// A position loop makes the motor torque; nobody gives its rate.
+// A position loop makes the motor torque; its rate is known after the equations are solved, which
+// is early enough for a memory.
 constexpr Dependence kUnknownInALoop = {&Instant<Complex>::motor_torque_rate,
                                         "rate of the motor torque"};
 
 // The torsion is what kinematics make, so they cannot follow from it.
 constexpr Dependence kUnknownToKinematics[] = {
     {&Instant<Complex>::torsion_rate, "rate of the torsion"},
-    {&Instant<Complex>::transmitted_torque, "transmitted torque"},
     {&Instant<Complex>::motor_speed, "motor speed"},
     {&Instant<Complex>::load_speed, "load speed"}};
 
@@ -46,7 +49,7 @@ Result<void> check(const EffectRow& row, std::span<const double> values, bool cl
   for (const Dependence& one : kNeverKnown) {
     if (depends_on(row, values, one.member)) return refusal(row, one.name);
   }
-  if (closed_loop && depends_on(row, values, kUnknownInALoop.member)) {
+  if (closed_loop && term_depends_on(row, values, kUnknownInALoop.member)) {
     return refusal(row, kUnknownInALoop.name);
   }
   if (row.site != Site::kinematics) return {};
@@ -85,11 +88,47 @@ Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveCon
     }
     if (auto good = check(**row, *values, closed_loop); !good) return tl::unexpected(good.error());
     use.follows_torsion = depends_on(**row, *values, &Instant<Complex>::torsion);
+    use.follows_motor = term_depends_on(**row, *values, &Instant<Complex>::motor_angle);
+    use.follows_load = term_depends_on(**row, *values, &Instant<Complex>::load_angle);
+    if ((*row)->site == Site::kinematics) {
+      const bool of_torque = term_depends_on(**row, *values, &Instant<Complex>::transmitted_torque);
+      model.torsion_is_state_ |= of_torque;
+      // A memory may need a threshold of torque to move, which no step finds.
+      model.follows_torque_ |= of_torque || (*row)->states > 0;
+    }
     use.states = state_count(**row, values->size());
     model.memory_ += use.states;
     model.effects_.push_back(use);
   }
   return model;
+}
+
+Result<void> DriveModel::check_yielding() const {
+  if (!torsion_is_state_) return {};
+  std::vector<Complex> p;
+  for (const auto& one : parameters_of(drive_, constants_)) p.emplace_back(one.value);
+  const std::vector<Complex> memory(memory_, Complex(0.0));
+  const DriveAt<Complex> at(*this, p, memory);
+  constexpr double kStep = 1e-30;
+  double stiffest = -std::numeric_limits<double>::infinity();
+  double where = 0.0;
+  for (double angle = 0.0; angle < 2.0 * std::numbers::pi * 50.0; angle += 0.05) {
+    Instant<Complex> x;
+    x.gear_ratio = Complex(drive_.gear_ratio);
+    x.motor_angle = Complex(angle);
+    x.transmitted_torque = Complex(0.0, kStep);
+    const double slope = at.kinematics(x).imag() / kStep;
+    if (slope > stiffest) std::tie(stiffest, where) = std::pair(slope, angle);
+  }
+  if (stiffest <= 0.0) return {};
+  return failure(ErrorCode::bad_data,
+                 fmt::format("at motor angle {:.3g} rad the torsion grows by {:.3g} rad/Nm under "
+                             "load: a negative compliance in series with the torsion law, which "
+                             "leaves its rate without a stable root",
+                             where, stiffest),
+                 fmt::format("add a series_compliance of {:.3g} rad/Nm or more, simulate "
+                             "displacement-driven, or take the effect out of the model",
+                             stiffest));
 }
 
 bool DriveModel::has(Site site) const {

@@ -22,16 +22,32 @@ Instant<Complex> nowhere_zero() {
   return x;
 }
 
+Instant<Complex> stepped(Complex Instant<Complex>::*variable) {
+  Instant<Complex> x = nowhere_zero();
+  x.*variable += Complex(0.0, 1e-20);
+  return x;
+}
+
+std::vector<Complex> some_memory(const EffectRow& row, std::size_t parameters) {
+  return std::vector<Complex>(state_count(row, parameters), Complex(1e-4));
+}
+
 }  // namespace
+
+bool term_depends_on(const EffectRow& row, std::span<const double> values,
+                     Complex Instant<Complex>::*variable) {
+  const std::vector<Complex> p(values.begin(), values.end());
+  const auto memory = some_memory(row, p.size());
+  return row.complex.term(stepped(variable), p, memory).imag() != 0.0;
+}
 
 bool depends_on(const EffectRow& row, std::span<const double> values,
                 Complex Instant<Complex>::*variable) {
-  Instant<Complex> x = nowhere_zero();
-  x.*variable += Complex(0.0, 1e-20);
-  const std::vector<Complex> p(values.begin(), values.end());
-  const std::vector<Complex> memory(state_count(row, p.size()), Complex(1e-4));
-  if (row.complex.term(x, p, memory).imag() != 0.0) return true;
+  if (term_depends_on(row, values, variable)) return true;
   if (row.complex.rate == nullptr) return false;
+  const Instant<Complex> x = stepped(variable);
+  const std::vector<Complex> p(values.begin(), values.end());
+  const auto memory = some_memory(row, p.size());
   std::vector<Complex> rates(memory.size());
   row.complex.rate(x, p, memory, rates);
   return std::ranges::any_of(rates, [](const Complex& rate) { return rate.imag() != 0.0; });

@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <optional>
 
-#include <fmt/format.h>
-
-#include "flexspline/core/effect_dependence.hpp"
 #include "flexspline/core/effect_path.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/simulate.hpp"
+#include "yielding_torque.hpp"
 
 namespace flexspline {
 namespace {
@@ -31,19 +29,6 @@ Result<void> apply_effects(const ModelSpec& model, std::span<const Instant<doubl
   return {};
 }
 
-// The torque follows from the torsion here, so kinematics that follow the torque would be silent.
-Result<void> check_known(const EffectRow& row, const EffectSpec& spec) {
-  const auto values = parameter_values(row, spec);
-  if (!values) return tl::unexpected(values.error());
-  if (!depends_on(row, *values, &Instant<Complex>::transmitted_torque)) return {};
-  return failure(
-      ErrorCode::bad_data,
-      fmt::format("the effect {} cannot be simulated along a motion: it makes torsion out "
-                  "of the transmitted torque, which is what is simulated",
-                  row.id),
-      "take it out of the model, or put its compliance into f");
-}
-
 // Kinematics add to the torsion that the law sees; its rate by differences of what they add.
 Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> path) {
   std::vector<double> added(path.size(), 0.0);
@@ -51,7 +36,6 @@ Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> p
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
     if ((*row)->site != Site::kinematics) continue;
-    if (auto known = check_known(**row, spec); !known) return known;
     if (auto done = apply_along(**row, spec, path, added); !done) return done;
   }
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -64,6 +48,18 @@ Result<void> add_kinematics(const ModelSpec& model, std::span<Instant<double>> p
   return {};
 }
 
+Result<std::vector<double>> with_stages(const ModelSpec& model, std::span<Instant<double>> path,
+                                        std::vector<double> torque,
+                                        std::initializer_list<Stage> stages) {
+  for (const Stage stage : stages) {
+    set_torque(path, torque);
+    if (auto done = apply_effects(model, path, torque, stage); !done) {
+      return tl::unexpected(done.error());
+    }
+  }
+  return torque;
+}
+
 }  // namespace
 
 Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion& motion) {
@@ -74,19 +70,20 @@ Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion
     if (!*law) return tl::unexpected(law->error());
   }
   auto path = instants_of(motion);
+  const auto yields = kinematics_follow_torque(model);
+  if (!yields) return tl::unexpected(yields.error());
+  if (*yields) {
+    auto torque = torque_of_yielding({**f, **g_inverse, **h}, model, path);
+    if (!torque) return torque;
+    return with_stages(model, path, std::move(*torque), {Stage::reading, Stage::signal});
+  }
   if (auto done = add_kinematics(model, path); !done) return tl::unexpected(done.error());
   std::vector<double> torque(path.size());
   for (std::size_t i = 0; i < torque.size(); ++i) {
     const double phi = path[i].torsion;
     torque[i] = (*f)->value(phi) + (*g_inverse)->value(path[i].torsion_rate / (*h)->value(phi));
   }
-  for (Stage stage : {Stage::force, Stage::reading, Stage::signal}) {
-    set_torque(path, torque);
-    if (auto done = apply_effects(model, path, torque, stage); !done) {
-      return tl::unexpected(done.error());
-    }
-  }
-  return torque;
+  return with_stages(model, path, std::move(torque), {Stage::force, Stage::reading, Stage::signal});
 }
 
 }  // namespace flexspline

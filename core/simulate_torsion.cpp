@@ -4,8 +4,8 @@
 #include "flexspline/core/forward_sensitivity.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/monotone_spline.hpp"
-#include "flexspline/core/rig.hpp"
 #include "flexspline/core/spline.hpp"
+#include "flexspline/core/torque_signal.hpp"
 
 namespace flexspline {
 namespace {
@@ -62,36 +62,14 @@ class TorqueDriven final : public ScalarOde {
   double scale_;
 };
 
-// The specimen of the catalogue of rigs, with the effects' memory as further states.
-Result<std::vector<double>> with_effects(const ModelSpec& model, std::span<const double> time,
-                                         std::span<const double> torque, double initial,
-                                         const IntegratorSettings& settings) {
-  DriveSpec drive;
-  drive.torsion = model;
-  const auto rig = make_rig(Rig::specimen, drive,
-                            {{{Quantity::transmitted_torque, sampled_signal(time, torque)}}, {}});
-  if (!rig) return tl::unexpected(rig.error());
-  std::vector<double> start = (*rig)->rest();
-  start.front() = initial;
-  SystemSettings how;
-  how.relative_tolerance = settings.relative_tolerance;
-  how.absolute_tolerance.assign(start.size(), settings.absolute_tolerance * model.f.scale);
-  how.max_steps = settings.max_steps;
-  const auto run = integrate_system(**rig, (*rig)->parameter_vector(), time, start, how);
-  if (!run) return tl::unexpected(run.error());
-  std::vector<double> torsion;
-  for (std::size_t i = 0; i < run->state.size(); i += run->states) {
-    torsion.push_back(run->state[i]);
-  }
-  return torsion;
-}
-
 }  // namespace
 
 Result<std::vector<double>> simulate_torsion(const ModelSpec& model, std::span<const double> time,
                                              std::span<const double> torque, double initial,
                                              const IntegratorSettings& settings) {
-  if (!model.effects.empty()) return with_effects(model, time, torque, initial, settings);
+  if (!model.effects.empty()) {
+    return simulate_torsion(model, time, sampled_signal(time, torque), initial, settings);
+  }
   const auto f = make_law(model.f);
   const auto g_inverse = make_law(model.g_inverse);
   const auto h = make_law(model.h);

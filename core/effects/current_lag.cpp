@@ -42,7 +42,9 @@ EffectRow describe_current_lag() {
       .parameters = {{"time_constant", "s", 1e-7, 1.0, 1e-3, "0.3 to 3 ms"}},
       .rigs = {Rig::locked, Rig::free, Rig::servo},
       .states = 1,
-      .passive = false};
+      .passive = false,
+      .active_because =
+          "part of the motor, which drives: the torque that the winding has not yet taken back"};
   instantiate<CurrentLag>(row);
   return row;
 }

@@ -33,7 +33,9 @@ EffectRow describe_direction_asymmetry() {
                       "half of forward less backward: 5 to 20 % of B (judgement)"},
                      {"smoothing", "rad/s", 1e-9, 100.0, 0.5, "0.2 to 1 rad/s at the motor"}},
       .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
-      .passive = false};
+      .passive = false,
+      .active_because =
+          "half a friction: passive beside Coulomb tc >= |dtc| and viscous B >= |dB|"};
   instantiate<DirectionAsymmetry>(row);
   return row;
 }

@@ -27,6 +27,7 @@ EffectRow describe_encoder_eccentricity() {
                                {"phase", "rad", -3.2, 3.2, 0.0, "depends on the assembly"}},
                 .rigs = {Rig::free, Rig::servo},
                 .passive = false,
+                .active_because = "an instrument: it shows what is not there, and does no work",
                 .rate_independent = true};
   instantiate<EncoderEccentricity>(row);
   return row;

@@ -29,7 +29,8 @@ EffectRow describe_encoder_skew() {
                 .source = "encoders read one after another on a bus: 10 us to 1 ms",
                 .parameters = {{"delay", "s", -10.0, 10.0, 1e-4, "a tenth of a bus cycle of 1 ms"}},
                 .rigs = {Rig::free},
-                .passive = false};
+                .passive = false,
+                .active_because = "an instrument: it shows what is not there, and does no work"};
   instantiate<EncoderSkew>(row);
   row.map = map;
   return row;

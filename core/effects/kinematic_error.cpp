@@ -31,6 +31,9 @@ EffectRow describe_kinematic_error() {
       .rigs = {Rig::locked, Rig::free, Rig::servo},
       .repeats = true,
       .passive = false,
+      .active_because =
+          "it has work on its two shafts: passive with the torque tau de/dtheta_m that it returns "
+          "to the motor, as the rigs model it",
       .rate_independent = true};
   instantiate<KinematicError>(row);
   return row;

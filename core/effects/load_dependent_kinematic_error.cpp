@@ -29,6 +29,9 @@ EffectRow describe_load_dependent_kinematic_error() {
       .rigs = {Rig::locked, Rig::free},
       .repeats = true,
       .passive = false,
+      .active_because =
+          "a compliance that turns with the motor: passive beside a series compliance of at least "
+          "its own and with the torque tau^2/2 dc/dtheta_m that it returns to the motor",
       .rate_independent = true};
   instantiate<LoadDependentKinematicError>(row);
   return row;

@@ -24,7 +24,8 @@ EffectRow describe_motor_torque_offset() {
                 .source = "current sensors: 0.1 to 0.3 % of range",
                 .parameters = {{"offset", "Nm", -1e6, 1e6, 5e-3, "1 to 10 mNm of 3.8 Nm"}},
                 .rigs = {Rig::locked, Rig::free, Rig::servo},
-                .passive = false};
+                .passive = false,
+                .active_because = "part of the motor, which drives"};
   instantiate<MotorTorqueOffset>(row);
   return row;
 }

@@ -43,7 +43,8 @@ EffectRow describe_motor_torque_ripple() {
                      {"ripple_cosine", "1", -1.0, 1.0, 0.0, "phase, free"}},
       .rigs = {Rig::locked, Rig::free, Rig::servo},
       .repeats = true,
-      .passive = false};
+      .passive = false,
+      .active_because = "part of the motor, which drives"};
   instantiate<TorqueRipple>(row);
   return row;
 }

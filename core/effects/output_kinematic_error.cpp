@@ -29,6 +29,9 @@ EffectRow describe_output_kinematic_error() {
       .rigs = {Rig::free, Rig::servo},
       .repeats = true,
       .passive = false,
+      .active_because =
+          "it has work on its two shafts: passive with the torque tau do/dtheta_l that it returns "
+          "to the load, as the free rig models it",
       .rate_independent = true};
   instantiate<OutputKinematicError>(row);
   return row;

@@ -5,27 +5,37 @@
 namespace flexspline {
 namespace {
 
-// The state is the part of the torque that friction in the joint carries: a stop operator, so that
-// tau - s is the play operator. Driven by the torque, not by the torsion, as only that loses
-// energy.
+// The state is the play operator's, in units of T: the torque less what friction in the joint
+// carries. Driven by the torque, not by the torsion, as only that loses energy.
 struct PlayBacklash {
+  // What the torque exceeds the friction by, in units of T.
   template <class S>
-  static S term(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
-    using std::sqrt;
-    const S play(x.transmitted_torque - z[0]);
-    return S(-S(S(p[0] * play) / S(sqrt(S(S(play * play) + S(p[1] * p[1]))))));
+  static S excess(const Instant<S>& x, std::span<const S> p, const S& play) {
+    const S apart(S(x.transmitted_torque / p[1]) - play);
+    return S(apart - limited(apart, S(1.0)));
   }
+
+  template <class S>
+  static S term(const Instant<S>&, std::span<const S> p, std::span<const S> z) {
+    using std::sqrt;
+    return S(-S(S(p[0] * z[0]) / S(sqrt(S(S(z[0] * z[0]) + 1.0)))));
+  }
+
+  // The joint creeps after the excess: its friction is T (1 + z' t), by which it can be integrated.
+  static constexpr double kCreepSeconds = 1e-5;
 
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    z[0] = limited(S(z[0] + S(to.transmitted_torque - from.transmitted_torque)), p[1]);
+    using std::exp;
+    const S left(exp(S(S(from.time - to.time) / kCreepSeconds)));
+    z[0] += S(excess(to, p, z[0]) * S(1.0 - left));
   }
 
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
-    dz[0] = stop_rate(z[0], x.transmitted_torque_rate, p[1]);
+    dz[0] = S(excess(x, p, z[0]) / kCreepSeconds);
   }
 };
 
@@ -36,8 +46,10 @@ EffectRow describe_play_backlash() {
       .id = "play_backlash",
       .coordinate = "reversal_memory",
       .site = Site::kinematics,
-      .equation = "phi_e = phi - b p/sqrt(p^2 + T^2), p = tau - s, s' = tau' unless |s| = T (play)",
-      .range = "any torque; the joint starts unstressed; loses energy over each cycle",
+      .equation = "phi_e = phi - b z/sqrt(z^2 + 1), T z = tau - s, s' = tau' unless |s| = T (play)",
+      .range =
+          "any torque; the joint starts in the middle of its gap; loses energy over each cycle; "
+          "its friction grows by T z' 10 us, so that it can be integrated",
       .not_modelled = "impacts; a friction of the joint that depends on speed",
       .source = "Krasnosel'skii, Pokrovskii, Systems with Hysteresis (1989): play operator",
       .parameters = {{"half_gap", "rad", 0.0, 0.2, 1e-4, "Oldham coupling: 5 to 30 arcsec"},

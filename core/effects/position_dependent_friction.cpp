@@ -41,7 +41,10 @@ EffectRow describe_position_dependent_friction() {
                      {"smoothing", "rad/s", 1e-9, 100.0, 0.5, "0.2 to 1 rad/s at the motor"}},
       .rigs = {Rig::locked, Rig::free, Rig::servo},
       .repeats = true,
-      .passive = false};
+      .passive = false,
+      .active_because =
+          "the changing part of a friction: passive beside a Coulomb friction of at least the sum "
+          "of its amplitudes"};
   instantiate<PositionFriction>(row);
   return row;
 }

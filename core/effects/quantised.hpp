@@ -24,4 +24,19 @@ inline void quantise_signal(std::span<const double>, std::span<double> signal,
   for (double& value : signal) value = step * std::round(value / step);
 }
 
+inline constexpr std::string_view kQuantisedRange =
+    "any value; as white noise of q/sqrt(12) where the signal crosses many steps";
+inline constexpr std::string_view kQuantisedNotModelled =
+    "steps of unequal width; at an instant it counts as its mean, 0";
+
+/// The row of a quantised signal: what tells the signals apart, with the law they share.
+inline EffectRow quantisation(EffectRow row) {
+  row.passive = false;
+  row.active_because = "an instrument: it shows what is not there, and does no work";
+  row.rate_independent = true;
+  instantiate<MeanOfQuantisation>(row);
+  row.map = quantise_signal;
+  return row;
+}
+
 }  // namespace flexspline

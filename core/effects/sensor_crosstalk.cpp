@@ -28,6 +28,7 @@ EffectRow describe_sensor_crosstalk() {
       .rigs = {Rig::locked, Rig::free},
       .repeats = true,
       .passive = false,
+      .active_because = "an instrument: it shows what is not there, and does no work",
       .rate_independent = true};
   instantiate<SensorCrosstalk>(row);
   return row;

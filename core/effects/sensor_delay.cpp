@@ -29,7 +29,8 @@ EffectRow describe_sensor_delay() {
                 .source = "anti-alias filters and bus cycles: 0.5 to 5 ms",
                 .parameters = {{"delay", "s", -10.0, 10.0, 1e-3, "anti-alias filters"}},
                 .rigs = {Rig::locked, Rig::free, Rig::specimen},
-                .passive = false};
+                .passive = false,
+                .active_because = "an instrument: it shows what is not there, and does no work"};
   instantiate<SensorDelay>(row);
   row.map = map;
   return row;

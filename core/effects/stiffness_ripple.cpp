@@ -20,7 +20,7 @@ EffectRow describe_stiffness_ripple() {
       .site = Site::transmission,
       .equation = "tau += phi sum_k D_k sin(k theta_m + p_k): K (1 + eps sin 2 theta_m), D = eps K",
       .range = "ripple well below the law's own stiffness; orders of the wave generator",
-      .not_modelled = "the reaction on the motor, phi^2/2 dD/dtheta_m, so that it may make energy",
+      .not_modelled = "a ripple of the law's curvature",
       .source = "radial compliance of the wave generator; engineering judgement: eps 1 to 3 %",
       .parameters = {{"stiffness", "Nm/rad", 0.0, 1e6, 3000.0,
                       "2 % of K1 = 1.5e5 Nm/rad of size 45, ratio 50"},
@@ -29,6 +29,9 @@ EffectRow describe_stiffness_ripple() {
       .rigs = {Rig::locked, Rig::free, Rig::servo},
       .repeats = true,
       .passive = false,
+      .active_because =
+          "it has work on its two shafts: passive with the torque phi^2/2 dD/dtheta_m that it "
+          "returns to the motor, as the rigs model it",
       .rate_independent = true};
   instantiate<StiffnessRipple>(row);
   return row;

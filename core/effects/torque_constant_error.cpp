@@ -24,7 +24,8 @@ EffectRow describe_torque_constant_error() {
                 .source = "data sheets of motors: kt to 3 to 10 %",
                 .parameters = {{"error", "1", -0.5, 0.5, 0.05, "3 to 7 % seen"}},
                 .rigs = {Rig::locked, Rig::free, Rig::servo},
-                .passive = false};
+                .passive = false,
+                .active_because = "part of the motor, which drives"};
   instantiate<TorqueConstantError>(row);
   return row;
 }

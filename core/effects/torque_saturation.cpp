@@ -31,7 +31,8 @@ EffectRow describe_torque_saturation() {
       .source = "Hanselman (2003); data sheets of motors: 2 to 15 % lost at peak current",
       .parameters = {{"softening", "1/Nm2", 0.0, 1e6, 4.6e-4, "6 % at three times 3.8 Nm"}},
       .rigs = {Rig::locked, Rig::free, Rig::servo},
-      .passive = false};
+      .passive = false,
+      .active_because = "part of the motor, which drives"};
   instantiate<TorqueSaturation>(row);
   return row;
 }

@@ -25,7 +25,8 @@ EffectRow describe_torque_sensor_drift() {
                      {"settling", "Nm", -1e5, 1e5, 0.45, "0.02 % of 226 Nm per K over 10 K"},
                      {"time_constant", "s", 1e-3, 1e6, 600.0, "warming of a housing"}},
       .rigs = {Rig::locked, Rig::free, Rig::specimen},
-      .passive = false};
+      .passive = false,
+      .active_because = "an instrument: it shows what is not there, and does no work"};
   instantiate<TorqueSensorDrift>(row);
   return row;
 }

@@ -23,6 +23,7 @@ EffectRow describe_torque_sensor_gain() {
                 .parameters = {{"error", "1", -0.95, 20.0, 0.01, "1 % of the reading"}},
                 .rigs = {Rig::locked, Rig::free, Rig::specimen},
                 .passive = false,
+                .active_because = "an instrument: it shows what is not there, and does no work",
                 .rate_independent = true};
   instantiate<TorqueSensorGain>(row);
   return row;

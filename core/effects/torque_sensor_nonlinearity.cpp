@@ -42,6 +42,7 @@ EffectRow describe_torque_sensor_nonlinearity() {
       .rigs = {Rig::locked, Rig::free, Rig::specimen},
       .states = 1,
       .passive = false,
+      .active_because = "an instrument: it shows what is not there, and does no work",
       .rate_independent = true};
   instantiate<TorqueSensorNonlinearity>(row);
   return row;

@@ -18,6 +18,8 @@ struct EffectUse {
   std::size_t state = 0;
   std::size_t states = 0;
   bool follows_torsion = false;
+  bool follows_motor = false;  ///< its term, the angle of the motor
+  bool follows_load = false;
 };
 
 /// The laws and effects of a drive, made once, for use at any scalar by DriveAt.
@@ -36,6 +38,12 @@ class DriveModel {
   std::size_t memory() const { return memory_; }
   std::size_t first_constant() const { return first_constant_; }
   bool has(Site site) const;
+  /// Kinematics follow the torque that they help to make.
+  bool kinematics_follow_torque() const { return follows_torque_; }
+  /// They do so at once, so that the torsion of the law is a state of the rig.
+  bool torsion_is_state() const { return torsion_is_state_; }
+  /// Errors: kinematics that grow with the torque at some motor angle.
+  Result<void> check_yielding() const;
 
   /// The law f (0), g^-1 (1) or h (2) with the coefficients that p has for it.
   template <class S>
@@ -64,6 +72,8 @@ class DriveModel {
   std::size_t first_constant_ = 0;
   std::size_t parameters_ = 0;
   std::size_t memory_ = 0;
+  bool follows_torque_ = false;
+  bool torsion_is_state_ = false;
   mutable std::array<std::unique_ptr<Law>, 3> laws_;
 };
 
@@ -84,6 +94,10 @@ class DriveAt {
  public:
   DriveAt(const DriveModel& model, std::span<const S> p, std::span<const S> memory)
       : model_(model), p_(p), memory_(memory) {}
+
+  const DriveModel& model() const { return model_; }
+  std::span<const S> parameters() const { return p_; }
+  std::span<const S> memory() const { return memory_; }
 
   S constant(double DriveSpec::*member) const {
     const auto constants = model_.constants();
@@ -134,15 +148,35 @@ class DriveAt {
     return S(gravity + viscous + sum(Site::load, x));
   }
 
-  /// Adds the kinematic terms to the torsion and, along the motion, to its rate.
+  /// What the kinematics add to the torsion of a rigid instant, without them.
+  S kinematics(const Instant<S>& rigid) const { return sum(Site::kinematics, rigid); }
+
+  /// What they add to its rate along the motion and, where it is entered, the torque's rate.
+  S kinematics_rate(const Instant<S>& rigid) const {
+    S total(0.0);
+    for (const EffectUse& use : model_.effects()) {
+      if (use.row->site == Site::kinematics) total += kinematic_rate(use, rigid);
+    }
+    return total;
+  }
+
+  /// Adds the kinematic terms to the torsion and to its rate.
   void add_kinematics(Instant<S>& x) const {
     if (!model_.has(Site::kinematics)) return;
     const Instant<S> rigid = x;
-    for (const EffectUse& use : model_.effects()) {
-      if (use.row->site != Site::kinematics) continue;
-      x.torsion += term(use, rigid);
-      x.torsion_rate += kinematic_rate(use, rigid);
-    }
+    x.torsion += kinematics(rigid);
+    x.torsion_rate += kinematics_rate(rigid);
+  }
+
+  /// What the transmission returns to a shaft that it turns with, by virtual work: the integral of
+  /// de/dtheta over the torque for kinematics e, of dt/dtheta over the torsion for terms t of the
+  /// torsion law; by the midpoint, which is exact for terms affine in torque or torsion. Beside
+  /// tau/N on the motor, less than tau on the load. x: with the law's torsion; rigid: without.
+  S motor_reaction(const Instant<S>& rigid, const Instant<S>& x) const {
+    return reactions(rigid, x, &EffectUse::follows_motor, &Instant<S>::motor_angle);
+  }
+  S load_reaction(const Instant<S>& rigid, const Instant<S>& x) const {
+    return reactions(rigid, x, &EffectUse::follows_load, &Instant<S>::load_angle);
   }
 
   /// Enters the true motor torque behind a recorded one: the fixed point of
@@ -152,6 +186,25 @@ class DriveAt {
     if (!model_.has(Site::motor_torque_signal)) return;
     for (int k = 0; k < 40; ++k) {
       x.motor_torque = S(recorded - sum(Site::motor_torque_signal, x));
+    }
+  }
+
+  /// Turns a recorded transmitted torque and its rate into the true ones behind them, likewise.
+  void undo_torque_sensor(Instant<S>& x) const {
+    if (!model_.has(Site::torque_signal)) return;
+    const S recorded = x.transmitted_torque;
+    const S recorded_rate = x.transmitted_torque_rate;
+    for (int k = 0; k < 40; ++k) {
+      x.transmitted_torque = S(recorded - sum(Site::torque_signal, x));
+    }
+    for (int k = 0; k < 40; ++k) {
+      x.transmitted_torque_rate = S(recorded_rate - difference(1e-4, [&](double by) {
+                                      Instant<S> moved = x;
+                                      moved.time += S(by);
+                                      moved.motor_angle += S(by * x.motor_speed);
+                                      moved.transmitted_torque += S(by * x.transmitted_torque_rate);
+                                      return sum(Site::torque_signal, moved);
+                                    }));
     }
   }
 
@@ -181,8 +234,45 @@ class DriveAt {
                                    memory_.subspan(use.state, use.states), rates);
   }
 
-  // Sixth-order differences over a step that turns no shaft by more than 0.03 rad and, where the
-  // term follows the torsion, twists by no more than 1.5e-6 rad: 1e-9 of the rate or better.
+  // Sixth-order differences: orders of 200 at the motor and 1000 at the load to 5e-7, of 10 to
+  // 1e-12.
+  S reaction(Site site, Instant<S> x, S Instant<S>::*over, bool EffectUse::*follows,
+             S Instant<S>::*angle) const {
+    const S whole = x.*over;
+    x.*over = S(0.5 * whole);
+    S slope(0.0);
+    for (const EffectUse& use : model_.effects()) {
+      if (use.row->site != site || !(use.*follows)) continue;
+      slope += difference(angle == &Instant<S>::motor_angle ? 1e-3 : 1e-4, [&](double by) {
+        Instant<S> moved = x;
+        moved.*angle += S(by);
+        return term(use, moved);
+      });
+    }
+    return S(whole * slope);
+  }
+
+  S reactions(const Instant<S>& rigid, const Instant<S>& x, bool EffectUse::*follows,
+              S Instant<S>::*angle) const {
+    return S(reaction(Site::kinematics, rigid, &Instant<S>::transmitted_torque, follows, angle) +
+             reaction(Site::transmission, x, &Instant<S>::torsion, follows, angle));
+  }
+
+  template <class Function>
+  static S difference(double step, const Function& function) {
+    constexpr double kWeights[] = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
+    S slope(0.0);
+    for (int k = 1; k <= 3; ++k) {
+      const S ahead = function(k * step);
+      const S behind = function(-k * step);
+      slope += S((kWeights[k - 1] / step) * S(ahead - behind));
+    }
+    return slope;
+  }
+
+  // Sixth-order differences over a step that turns no shaft by more than 0.03 rad, twists by no
+  // more than 1.5e-6 rad where the term follows the torsion, and moves no memory, which kinematics
+  // hold in units of its own, by more than 0.003: 1e-9 of the rate or better.
   S kinematic_rate(const EffectUse& use, const Instant<S>& x) const {
     const double fastest = std::abs(real_part(x.motor_speed)) + std::abs(real_part(x.load_speed));
     double step = 0.01 / (1.0 + fastest);
@@ -190,14 +280,11 @@ class DriveAt {
     if (use.follows_torsion && twist * step > 5e-7) step = 5e-7 / twist;
     std::vector<S> memory_rates(use.states, S(0.0));
     if (use.states > 0) memory_rate(use, x, memory_rates);
-    constexpr double kWeights[] = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
-    S rate(0.0);
-    for (int k = 1; k <= 3; ++k) {
-      const S ahead = term_moved(use, x, memory_rates, k * step);
-      const S behind = term_moved(use, x, memory_rates, -k * step);
-      rate += S((kWeights[k - 1] / step) * S(ahead - behind));
+    for (const S& one : memory_rates) {
+      const double moving = std::abs(real_part(one));
+      if (moving * step > 1e-3) step = 1e-3 / moving;
     }
-    return rate;
+    return difference(step, [&](double by) { return term_moved(use, x, memory_rates, by); });
   }
 
   S term_moved(const EffectUse& use, Instant<S> x, std::span<const S> memory_rates,
@@ -206,6 +293,7 @@ class DriveAt {
     x.motor_angle += S(dt * x.motor_speed);
     x.load_angle += S(dt * x.load_speed);
     x.torsion += S(dt * x.torsion_rate);
+    x.transmitted_torque += S(dt * x.transmitted_torque_rate);
     std::vector<S> memory(use.states);
     for (std::size_t k = 0; k < use.states; ++k) {
       memory[k] = S(memory_[use.state + k] + S(dt * memory_rates[k]));

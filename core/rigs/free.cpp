@@ -1,9 +1,10 @@
+#include "rigs/enter_transmission.hpp"
 #include "rigs/rig_parts.hpp"
 
 namespace flexspline {
 namespace {
 
-// States theta_m, omega_m, theta_l, omega_l (, integral of the loop).
+// States theta_m, omega_m, theta_l, omega_l (, integral of the loop) (, torsion of the law).
 struct FreeDrive {
   DriveModel model;
   RigInputs inputs;
@@ -15,16 +16,16 @@ struct FreeDrive {
     const std::size_t own = variables.size();
     const DriveAt<S> at(model, p, y.subspan(own));
     Instant<S> x = moving(t, y);
-    const Instant<S> rigid = x;
     drive_motor(at, model.drive(), inputs, loop, x, t, loop ? y[4] : S(0.0));
-    at.add_kinematics(x);
-    x.transmitted_torque = at.transmitted(x);
-    accelerate(at, x, t);
+    const Instant<S> rigid = enter_transmission(at, x, y[own - 1]);
+    accelerate(at, x, rigid, t);
+    if (loop) x.motor_torque_rate = loop_rate(model.drive(), inputs, t, x, y[4]);
     ydot[0] = y[1];
     ydot[1] = x.motor_acceleration;
     ydot[2] = y[3];
     ydot[3] = x.load_acceleration;
     if (loop) ydot[4] = S(input(inputs, Quantity::commanded_angle).value(t) - y[0]);
+    if (model.torsion_is_state()) ydot[own - 1] = x.torsion_rate;
     at.memory_rates(rigid, x, ydot.subspan(own));
     return x;
   }
@@ -44,11 +45,12 @@ struct FreeDrive {
     return x;
   }
 
-  // Eqs. (5) and (6).
+  // Eqs. (5) and (6), with what the kinematics return to both shafts.
   template <class S>
-  void accelerate(const DriveAt<S>& at, Instant<S>& x, double t) const {
-    const S motor(x.motor_torque - at.motor_losses(x) - S(x.transmitted_torque / x.gear_ratio));
-    S load(x.transmitted_torque - at.load_torque(x));
+  void accelerate(const DriveAt<S>& at, Instant<S>& x, const Instant<S>& rigid, double t) const {
+    const S geared(S(x.transmitted_torque / x.gear_ratio) + at.motor_reaction(rigid, x));
+    const S motor(x.motor_torque - at.motor_losses(x) - geared);
+    S load(x.transmitted_torque - at.load_reaction(rigid, x) - at.load_torque(x));
     if (inputs.load_torque) load -= S(inputs.load_torque->value(t));
     x.motor_acceleration = S(motor / at.constant(&DriveSpec::motor_inertia));
     x.load_acceleration = S(load / at.constant(&DriveSpec::load_inertia));
@@ -65,8 +67,10 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   auto model =
       DriveModel::make(drive, row.constants, {Site::motor_torque_signal}, name == "position_loop");
   if (!model) return tl::unexpected(model.error());
+  if (auto good = model->check_yielding(); !good) return tl::unexpected(good.error());
+  auto states = states_with_kinematics(*model, **form);
   return std::make_unique<RigSystemOf<FreeDrive>>(
-      FreeDrive{std::move(*model), inputs, (*form)->states, name == "position_loop"});
+      FreeDrive{std::move(*model), inputs, std::move(states), name == "position_loop"});
 }
 
 }  // namespace
@@ -82,12 +86,10 @@ RigRow describe_free() {
           .rig = Rig::free,
           .says = "inertial load on the output, both encoders",
           .equations =
-              "J1 theta_m'' + B1 theta_m' + tau_f + tau/N = tau_m (5), "
-              "J2 theta_l'' + B2 theta_l' + tau_L - tau = 0 (6), "
-              "tau = g^-1(phi'/h) + f (7), phi = theta_m/N - theta_l (8)",
-          .not_modelled =
-              "the torque tau dk/dtheta_m that a kinematic error k returns to the motor: "
-              "eq. (5) has tau/N alone",
+              "J1 theta_m'' + B1 theta_m' + tau_f + tau (1/N + de/dtheta_m) = tau_m (5), "
+              "J2 theta_l'' + B2 theta_l' + tau_L - tau (1 - de/dtheta_l) = 0 (6), "
+              "tau = g^-1(phi'/h) + f (7), phi = theta_m/N - theta_l + e (8), e of the kinematics",
+          .not_modelled = "mass between motor and load; play of the bearings",
           .forms = {{"motor_driven", "eqs. (5)-(8)", states, {Quantity::motor_torque}},
                     {"position_loop",
                      "the motor held to commanded_angle",

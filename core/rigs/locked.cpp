@@ -1,10 +1,12 @@
+#include "rigs/enter_transmission.hpp"
 #include "rigs/implicit_root.hpp"
 #include "rigs/rig_parts.hpp"
 
 namespace flexspline {
 namespace {
 
-// States theta_m, omega_m (, integral of the loop); reduced: theta_m alone.
+// States theta_m, omega_m (, integral of the loop) (, torsion of the law); reduced: without
+// omega_m.
 struct LockedDrive {
   DriveModel model;
   RigInputs inputs;
@@ -17,10 +19,12 @@ struct LockedDrive {
     const std::size_t own = variables.size();
     const DriveAt<S> at(model, p, y.subspan(own));
     Instant<S> x = reduced ? reduced_instant<S>(at, t, y, p) : inertial_instant<S>(at, t, y);
+    if (loop) x.motor_torque_rate = loop_rate(model.drive(), inputs, t, x, y[2]);
     const Instant<S> rigid = at_speed(x, x.motor_speed);
     ydot[0] = x.motor_speed;
     if (!reduced) ydot[1] = x.motor_acceleration;
     if (loop) ydot[2] = S(input(inputs, Quantity::commanded_angle).value(t) - y[0]);
+    if (model.torsion_is_state()) ydot[own - 1] = x.torsion_rate;
     at.memory_rates(rigid, x, ydot.subspan(own));
     return x;
   }
@@ -43,13 +47,13 @@ struct LockedDrive {
     return x;
   }
 
-  // tau_m - losses - tau/N at a motor speed; x is completed on the way.
+  // tau_m - losses - tau (1/N + de/dtheta_m) at a motor speed; x is completed on the way.
   template <class S>
-  S surplus(const DriveAt<S>& at, Instant<S>& x, const S& speed) const {
+  S surplus(const DriveAt<S>& at, Instant<S>& x, const S& speed, const S& law_torsion) const {
     x = at_speed(x, speed);
-    at.add_kinematics(x);
-    x.transmitted_torque = at.transmitted(x);
-    return S(x.motor_torque - at.motor_losses(x) - S(x.transmitted_torque / x.gear_ratio));
+    const Instant<S> rigid = enter_transmission(at, x, law_torsion);
+    const S geared(S(x.transmitted_torque / x.gear_ratio) + at.motor_reaction(rigid, x));
+    return S(x.motor_torque - at.motor_losses(x) - geared);
   }
 
   // J phi'' + B phi' + tau(phi', phi) = tau_n, eqs. (9)-(14), written at the motor.
@@ -57,7 +61,8 @@ struct LockedDrive {
   Instant<S> inertial_instant(const DriveAt<S>& at, double t, std::span<const S> y) const {
     Instant<S> x = at_speed(start(t, y[0]), y[1]);
     drive_motor(at, model.drive(), inputs, loop, x, t, loop ? y[2] : S(0.0));
-    const S acceleration(surplus(at, x, y[1]) / at.constant(&DriveSpec::motor_inertia));
+    const S acceleration(surplus(at, x, y[1], y[variables.size() - 1]) /
+                         at.constant(&DriveSpec::motor_inertia));
     x.motor_acceleration = acceleration;
     x.torsion_acceleration = S(acceleration / x.gear_ratio);
     return x;
@@ -75,9 +80,12 @@ struct LockedDrive {
     Instant<Complex> z = start(t, Complex(real_part(y[0])));
     z.motor_torque = Complex(real_part(x.motor_torque));
     const double scale = model.drive().gear_ratio * model.drive().torsion.g_inverse.scale;
-    const S speed = implicit_root<S>([&](const Complex& v) { return -surplus(complex_at, z, v); },
-                                     [&](const S& v) { return S(-surplus(at, x, v)); }, scale);
-    surplus(at, x, speed);
+    const S& torsion = y[variables.size() - 1];
+    const Complex real_torsion(real_part(torsion));
+    const S speed =
+        implicit_root<S>([&](const Complex& v) { return -surplus(complex_at, z, v, real_torsion); },
+                         [&](const S& v) { return S(-surplus(at, x, v, torsion)); }, scale);
+    surplus(at, x, speed, torsion);
     return x;
   }
 };
@@ -93,8 +101,16 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   auto model =
       DriveModel::make(drive, row.constants, {Site::motor_torque_signal}, name == "position_loop");
   if (!model) return tl::unexpected(model.error());
+  if (auto good = model->check_yielding(); !good) return tl::unexpected(good.error());
+  if (reduced && model->torsion_is_state() && !(drive.motor_viscous > 0.0)) {
+    return failure(ErrorCode::bad_data,
+                   "locked, reduced: with compliance in series and neither inertia nor viscous "
+                   "friction at the motor its speed has no root",
+                   "give a motor_viscous above 0, or use the form inertial");
+  }
+  auto states = states_with_kinematics(*model, **form);
   return std::make_unique<RigSystemOf<LockedDrive>>(
-      LockedDrive{std::move(*model), inputs, (*form)->states, reduced, name == "position_loop"});
+      LockedDrive{std::move(*model), inputs, std::move(states), reduced, name == "position_loop"});
 }
 
 }  // namespace
@@ -107,7 +123,8 @@ RigRow describe_locked() {
           .says = "output locked, motor position-controlled: the paper's bench",
           .equations =
               "J phi'' + B phi' + tau(phi', phi) = tau_n, phi = theta_m/N, J = N^2 J1, "
-              "B = N^2 B1, tau_n = N (tau_m - tau_f), eqs. (9)-(14)",
+              "B = N^2 B1, tau_n = N (tau_m - tau_f), eqs. (9)-(14); kinematics e add to phi of "
+              "the law and tau N de/dtheta_m to the left",
           .not_modelled = "give of the lock, but for series_compliance as an effect",
           .forms = {{"inertial", "eq. (11)", {angle, speed}, {Quantity::motor_torque}},
                     {"reduced", "eq. (3): inertia dropped", {angle}, {Quantity::motor_torque}},

@@ -45,6 +45,25 @@ void drive_motor(const DriveAt<S>& at, const DriveSpec& drive, const RigInputs& 
   at.set_motor_torque(x, commanded_torque(drive, inputs, loop, t, x, loop_state));
 }
 
+/// The rate of what the loop commands, once the motor's acceleration is known.
+template <class S>
+S loop_rate(const DriveSpec& drive, const RigInputs& inputs, double t, const Instant<S>& x,
+            const S& loop_state) {
+  const PositionLoop& gains = drive.position_loop;
+  const double most = std::abs(real_part(commanded_torque(drive, inputs, true, t, x, loop_state)));
+  if (most >= gains.limit) return S(0.0);
+  const Signal& reference = input(inputs, Quantity::commanded_angle);
+  const S error(reference.value(t) - x.motor_angle);
+  const S error_rate(rate_of(reference, t) - x.motor_speed);
+  constexpr double kStep = 1e-4;
+  const double bend =
+      gains.derivative == 0.0
+          ? 0.0
+          : (rate_of(reference, t + kStep) - rate_of(reference, t - kStep)) / (2.0 * kStep);
+  return S(S(gains.proportional * error_rate) + S(gains.integral * error) +
+           S(gains.derivative * S(bend - x.motor_acceleration)));
+}
+
 /// A vector of complex numbers with the real parts of another scalar's.
 template <class S>
 std::vector<Complex> real_parts(std::span<const S> values) {

@@ -27,7 +27,9 @@ struct Specimen {
                          model.drive().torsion.g_inverse.scale);
     recorded(at, x, speed);
     ydot[0] = speed;
-    at.memory_rates(at_speed(start(t, y[0]), speed), x, ydot.subspan(1));
+    Instant<S> rigid = at_speed(start(t, y[0]), speed);
+    enter_torque(at, rigid);
+    at.memory_rates(rigid, x, ydot.subspan(1));
     return x;
   }
 
@@ -46,11 +48,22 @@ struct Specimen {
     return x;
   }
 
+  // For kinematics that follow the torque: the true one behind the recorded one, and its rate.
+  template <class S>
+  void enter_torque(const DriveAt<S>& at, Instant<S>& x) const {
+    if (!at.model().kinematics_follow_torque()) return;
+    const double t = real_part(x.time);
+    x.transmitted_torque = S(input(inputs, effort).value(t));
+    x.transmitted_torque_rate = S(rate_of(input(inputs, effort), t));
+    at.undo_torque_sensor(x);
+  }
+
   // The effort that a bench would record at this speed; x holds the true one afterwards.
   template <class S>
   S recorded(const DriveAt<S>& at, Instant<S>& x, const S& v) const {
     x.torsion = x.motor_angle;
     x = at_speed(x, v);
+    enter_torque(at, x);
     at.add_kinematics(x);
     x.transmitted_torque = at.torsion_law(x);
     const S effects(at.sum(Site::transmission, x) + at.sum(Site::motor, x) + at.sum(Site::load, x));

@@ -20,7 +20,25 @@ std::vector<Case> cases() {
   const RigInputs angle{{{Quantity::commanded_angle, sine(0.1, 2.0)}}, {}};
   const RigInputs bridge{
       {{Quantity::duty_cycle, sine(0.5, 2.0)}, {Quantity::supply_voltage, constant(12.0)}}, {}};
+  const EffectSpec series{"series_compliance", {{"compliance", 4.8e-5}}};
+  const EffectSpec wave{"load_dependent_kinematic_error",
+                        {{"compliance", 1e-5}, {"order", 2.0}, {"phase", 0.3}}};
+  const EffectSpec error{"kinematic_error",
+                         {{"amplitude", 1.5e-4}, {"order", 2.0}, {"phase", 0.3}}};
   return {{"locked", Rig::locked, "inertial", {}, torque},
+          {"locked_yielding", Rig::locked, "inertial", {series, wave}, torque},
+          {"reduced_yielding", Rig::locked, "reduced", {series}, torque},
+          {"free_yielding", Rig::free, "motor_driven", {series, error}, torque},
+          {"free_lagging",
+           Rig::free,
+           "position_loop",
+           {{"current_lag", {{"time_constant", 1e-3}}}},
+           angle},
+          {"specimen_yielding",
+           Rig::specimen,
+           "force_driven",
+           {series, creep},
+           {{{Quantity::transmitted_torque, sine(20.0, 2.0)}}, {}}},
           {"reduced", Rig::locked, "reduced", {creep}, torque},
           {"held", Rig::locked, "position_loop", {}, angle},
           {"free", Rig::free, "motor_driven", {creep}, torque},

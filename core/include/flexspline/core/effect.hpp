@@ -72,6 +72,8 @@ struct EffectRow {
   bool repeats = false;    ///< the parameters and states come in groups (elements)
   std::size_t states = 0;  ///< of one element
   bool passive = true;     ///< makes no energy over a closed cycle
+  /// Where not passive: why it may make energy, or with what beside it it does not.
+  std::string_view active_because = {};
   bool rate_independent = false;
   EffectFunctions<double> real{};
   EffectFunctions<Dual> dual{};

@@ -18,4 +18,8 @@ struct NamedVariable {
 bool depends_on(const EffectRow& row, std::span<const double> values,
                 Complex Instant<Complex>::*variable);
 
+/// The same of the term alone.
+bool term_depends_on(const EffectRow& row, std::span<const double> values,
+                     Complex Instant<Complex>::*variable);
+
 }  // namespace flexspline

@@ -11,7 +11,7 @@ namespace flexspline {
 
 /// Displacement-driven: tau(t) = f(phi) + g^-1(phi'/h(phi)) + effects, eq. (4), at the motion's
 /// instants. tau in Nm (N).
-/// Errors: a law or effect that cannot be made.
+/// Errors: a law or effect that cannot be made; numerics where kinematics leave no torque.
 Result<std::vector<double>> simulate_torque(const ModelSpec& model, const Motion& motion);
 
 /// How well a torque-driven simulation is to be integrated.
