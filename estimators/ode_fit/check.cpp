@@ -113,7 +113,57 @@ Result<void> check_experiment(const OdeExperiment& experiment, std::size_t state
       in_context(std::move(checked).error(), fmt::format("experiment '{}'", experiment.id)));
 }
 
+Result<void> check_inequalities(const OdeFitProblem& problem) {
+  if (problem.inequalities == nullptr) return {};
+  const auto& all = *problem.inequalities;
+  std::vector<double> p;
+  for (const auto& parameter : problem.parameters) p.push_back(parameter.start);
+  std::vector<double> g(all.count());
+  all.values(p, g);
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    if (!(all.lower(i) < all.upper(i))) {
+      return refuse(fmt::format("inequality '{}' has bounds [{}, {}]", all.name(i), all.lower(i),
+                                all.upper(i)),
+                    "the lower bound must lie below the upper one");
+    }
+    if (!std::isfinite(g[i])) {
+      return refuse(fmt::format("inequality '{}' is {} at the start", all.name(i), g[i]),
+                    "start where it can be computed");
+    }
+  }
+  return {};
+}
+
+Result<void> misuse(std::string problem, std::string remedy) {
+  return failure(ErrorCode::usage, std::move(problem), std::move(remedy));
+}
+
 }  // namespace
+
+Result<void> check(const OdeFitSettings& settings) {
+  if (!(settings.loss_scale > 0.0) || !std::isfinite(settings.loss_scale)) {
+    return misuse(fmt::format("loss_scale is {}", settings.loss_scale),
+                  "give standard deviations of the noise, above 0");
+  }
+  if (settings.weighting == Weighting::coloured && settings.loss != Loss::squared) {
+    return misuse(fmt::format("coloured noise with the {} loss: an outlier would spread over the "
+                              "innovations after it, and the loss would meet it there",
+                              name_of(settings.loss)),
+                  "mask the outliers, or weigh each output by its own noise");
+  }
+  const bool drawn = settings.uncertainty.kind == Uncertainty::bootstrap_parametric ||
+                     settings.uncertainty.kind == Uncertainty::bootstrap_block;
+  if (drawn && settings.uncertainty.replicates < 20) {
+    return misuse(fmt::format("{} replicates of the bootstrap", settings.uncertainty.replicates),
+                  "percentiles of 95 % need at least 20, better 200");
+  }
+  if (settings.uncertainty.kind == Uncertainty::bootstrap_parametric &&
+      settings.loss != Loss::squared) {
+    return misuse("normal noise for the replicates of a fit that does not believe in it",
+                  "take bootstrap_block, or the squared loss");
+  }
+  return {};
+}
 
 Result<void> check(const OdeFitProblem& problem) {
   if (problem.system == nullptr) return refuse("the problem has no system", "give it one");
@@ -139,7 +189,7 @@ Result<void> check(const OdeFitProblem& problem) {
     auto checked = check_experiment(experiment, states);
     if (!checked) return checked;
   }
-  return {};
+  return check_inequalities(problem);
 }
 
 }  // namespace flexspline::estimators

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "ode_fit/collocation_nlp.hpp"
+#include "ode_fit/equation_error.hpp"
 #include "ode_fit/guess.hpp"
+#include "ode_fit/inequalities.hpp"
 #include "ode_fit/methods.hpp"
 
 namespace flexspline::estimators {
@@ -97,26 +99,20 @@ void take(OdeSolution& solution, const NlpSolution& found) {
   solution.evaluations += found.evaluations;
 }
 
-}  // namespace
-
 // The mesh follows the solution: solved on elements from measurement to measurement first, then
 // again where an element's end is off.
-Result<OdeSolution> collocation(const OdeLayout& layout, const OdeFitSettings& settings) {
-  const auto* system = dynamic_cast<const TwiceOdeSystem*>(layout.system.get());
-  if (system == nullptr) {
-    return failure(ErrorCode::usage, "collocation needs second derivatives of the system's law",
-                   "derive the system from OdeLaw, or fit by shooting");
-  }
+Result<OdeSolution> collocate(const OdeLayout& layout, const TwiceOdeSystem& system,
+                              std::vector<double> start, const OdeFitSettings& settings) {
   std::vector<Mesh> meshes;
   for (const auto& experiment : layout.experiments) meshes.push_back(first_mesh(experiment));
   std::vector<NodeStates> states = guessed(layout, meshes);
   const std::size_t most = kFreeElements + kMostGrowth * count(meshes);
-  OdeSolution solution{.q = layout.start()};
+  OdeSolution solution{.q = std::move(start)};
   NlpSettings nlp_settings{.max_iterations = settings.max_iterations};
   nlp_settings.objective_scale = 1.0 / std::max(cost_of_nothing(layout), 1e-300);
   for (int round = 0; round < kMeshes; ++round) {
-    const CollocationNlp nlp(layout, *system, meshes);
-    solution.elements = nlp.constraints() / (kStages * layout.states());
+    const CollocationNlp nlp(layout, system, meshes);
+    solution.elements = nlp.elements();
     const auto found = minimise(nlp, nlp.pack(solution.q, states), nlp_settings);
     if (!found) {
       return tl::unexpected(
@@ -126,16 +122,42 @@ Result<OdeSolution> collocation(const OdeLayout& layout, const OdeFitSettings& s
     solution.q = nlp.unknowns(found->x);
     states = nlp.node_states(found->x);
     solution.gap = refine(layout, solution.q, settings.mesh_tolerance, meshes, states);
-    if (solution.gap <= settings.mesh_tolerance) return solution;
+    if (solution.gap <= settings.mesh_tolerance) break;
     if (found->termination != Termination::converged || count(meshes) > most) break;
     nlp_settings.barrier_start = kWarmBarrier;
   }
+  note_active_inequalities(layout, solution);
+  if (solution.gap <= settings.mesh_tolerance) return solution;
   if (solution.termination == Termination::converged) {
     solution.termination = Termination::no_progress;
   }
   solution.notes.push_back(fmt::format("the mesh of {} elements is still off by {:.1g}",
                                        solution.elements, solution.gap));
   return solution;
+}
+
+}  // namespace
+
+// The trajectory starts from the measurements; with parameters that fit them as well the way home
+// is short. Where that way does not lead anywhere, the start that was given is left.
+Result<OdeSolution> collocation(const OdeLayout& layout, const OdeFitSettings& settings) {
+  const auto* system = dynamic_cast<const TwiceOdeSystem*>(layout.system.get());
+  if (system == nullptr) {
+    return failure(ErrorCode::usage, "collocation needs second derivatives of the system's law",
+                   "derive the system from OdeLaw, or fit by shooting");
+  }
+  if (settings.weighting == Weighting::coloured) {
+    return failure(ErrorCode::usage,
+                   "collocation cannot weigh coloured noise: its innovations would tie every "
+                   "instant to all before it",
+                   "fit by shooting, or weigh each output by its own noise");
+  }
+  if (settings.equation_error_start) {
+    const auto start = equation_error_start(layout);
+    auto solution = start ? collocate(layout, *system, *start, settings) : Result<OdeSolution>{};
+    if (start && solution && solution->termination == Termination::converged) return solution;
+  }
+  return collocate(layout, *system, layout.start(), settings);
 }
 
 }  // namespace flexspline::estimators

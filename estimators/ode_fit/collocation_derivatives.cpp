@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ode_fit/collocation_nlp.hpp"
+#include "ode_fit/inequalities.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -45,6 +46,9 @@ SparsePattern CollocationNlp::jacobian_pattern() const {
       for (std::size_t l = 0; l < states_; ++l) pattern.add(row, first_variable(n) + l);
       for (std::size_t k = 0; k < parameters_; ++k) pattern.add(row, k);
     }
+  }
+  for (std::size_t i = 0; i < inequalities(); ++i) {
+    for (std::size_t k = 0; k < parameters_; ++k) pattern.add(laws() + i, k);
   }
   return pattern;
 }
@@ -93,6 +97,15 @@ bool CollocationNlp::jacobian(std::span<const double> x, std::span<double> value
       }
       for (std::size_t k = 0; k < parameters_; ++k) {
         values[at++] = law(index(i), index(states_ + k)) * scale(k) / size;
+      }
+    }
+  }
+  if (inequalities() > 0) {
+    const auto p = parameters(x);
+    const Eigen::MatrixXd slopes = inequality_gradients(*layout_.inequalities, p);
+    for (std::size_t i = 0; i < inequalities(); ++i) {
+      for (std::size_t k = 0; k < parameters_; ++k) {
+        values[at++] = slopes(index(i), index(k)) * scale(k);
       }
     }
   }
@@ -151,8 +164,10 @@ void CollocationNlp::add_law_curvature(std::span<const double> x, std::size_t no
 }
 
 // Of the residuals at one instant by the states read there, scaled.
-Eigen::MatrixXd CollocationNlp::reading_curvature(const Reading& reading, double factor) const {
+Eigen::MatrixXd CollocationNlp::reading_curvature(std::span<const double> x, const Reading& reading,
+                                                  double factor) const {
   const auto& source = experiment(reading.experiment);
+  const auto y = read(x, reading);
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(index(states_), index(states_));
   for (std::size_t o = 0; o < source.outputs(); ++o) {
     if (!source.counts(reading.instant, o)) continue;
@@ -161,9 +176,28 @@ Eigen::MatrixXd CollocationNlp::reading_curvature(const Reading& reading, double
       const Source at = reading_source(reading, i);
       slope[index(i)] = at.known() ? 0.0 : source.slope(o, i) * scale(at.unknown);
     }
-    m += factor * slope * slope.transpose();
+    const double bend = layout_.loss.curvature(source.residual(reading.instant, o, y));
+    m += factor * bend * slope * slope.transpose();
   }
   return m;
+}
+
+void CollocationNlp::add_inequality_curvature(std::span<const double> x,
+                                              std::span<const double> lambda,
+                                              std::span<double> values) const {
+  const auto p = parameters(x);
+  std::vector<HyperDual> dual(p.begin(), p.end());
+  std::vector<HyperDual> g(inequalities());
+  for (std::size_t a = 0, at = 0; a < parameters_; ++a) {
+    dual[a].first = scale(a);
+    for (std::size_t b = 0; b <= a; ++b, ++at) {
+      dual[b].second = scale(b);
+      layout_.inequalities->values(std::span<const HyperDual>(dual), std::span(g));
+      dual[b].second = 0.0;
+      for (std::size_t i = 0; i < g.size(); ++i) values[at] += lambda[laws() + i] * g[i].mixed;
+    }
+    dual[a].first = 0.0;
+  }
 }
 
 bool CollocationNlp::hessian(std::span<const double> x, double factor,
@@ -177,7 +211,7 @@ bool CollocationNlp::hessian(std::span<const double> x, double factor,
   }
   const std::size_t per_node = triangle(states_) + states_ * parameters_;
   for (const auto& reading : readings_) {
-    const Eigen::MatrixXd m = reading_curvature(reading, factor);
+    const Eigen::MatrixXd m = reading_curvature(x, reading, factor);
     if (reading.node != Reading::kStart) {
       add_triangle(m, states_, values.subspan(at + reading.node * per_node));
       continue;
@@ -201,6 +235,7 @@ bool CollocationNlp::hessian(std::span<const double> x, double factor,
     }
     add_triangle(m.bottomRightCorner(index(parameters_), index(parameters_)), parameters_, values);
   }
+  if (inequalities() > 0) add_inequality_curvature(x, lambda, values);
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 

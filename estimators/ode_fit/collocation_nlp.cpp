@@ -35,7 +35,7 @@ CollocationNlp::CollocationNlp(const OdeLayout& layout, const TwiceOdeSystem& sy
   }
 }
 
-std::size_t CollocationNlp::variables() const { return unknown_count_ + constraints(); }
+std::size_t CollocationNlp::variables() const { return unknown_count_ + laws(); }
 
 void CollocationNlp::bounds(std::span<double> lower, std::span<double> upper) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ bool CollocationNlp::objective(std::span<const double> x, double& f) const {
     const auto y = read(x, reading);
     for (std::size_t o = 0; o < source.outputs(); ++o) {
       if (source.counts(reading.instant, o)) {
-        f += 0.5 * std::pow(source.residual(reading.instant, o, y), 2);
+        f += layout_.loss.value(source.residual(reading.instant, o, y));
       }
     }
   }
@@ -98,11 +98,11 @@ bool CollocationNlp::gradient(std::span<const double> x, std::span<double> g) co
     const auto y = read(x, reading);
     for (std::size_t o = 0; o < source.outputs(); ++o) {
       if (!source.counts(reading.instant, o)) continue;
-      const double residual = source.residual(reading.instant, o, y);
+      const double influence = layout_.loss.influence(source.residual(reading.instant, o, y));
       for (std::size_t i = 0; i < states_; ++i) {
         const Source at = reading_source(reading, i);
         if (at.known()) continue;
-        g[at.unknown] += residual * source.slope(o, i) * scale(at.unknown);
+        g[at.unknown] += influence * source.slope(o, i) * scale(at.unknown);
       }
     }
   }
@@ -125,7 +125,22 @@ bool CollocationNlp::constraint(std::span<const double> x, std::span<double> c) 
       c[n * states_ + i] = (slope - node.width * rate[i]) / layout_.state_scale[i];
     }
   }
+  if (inequalities() > 0) layout_.inequalities->values(parameters(x), c.subspan(laws()));
   return all_finite(c);
+}
+
+void CollocationNlp::constraint_bounds(std::span<double> lower, std::span<double> upper) const {
+  SparseNlp::constraint_bounds(lower, upper);
+  for (std::size_t k = 0; k < inequalities(); ++k) {
+    lower[laws() + k] = layout_.inequalities->lower(k);
+    upper[laws() + k] = layout_.inequalities->upper(k);
+  }
+}
+
+std::vector<double> CollocationNlp::parameters(std::span<const double> x) const {
+  std::vector<double> p;
+  for (std::size_t k = 0; k < parameters_; ++k) p.push_back(value(x, k));
+  return p;
 }
 
 std::vector<double> CollocationNlp::pack(std::span<const double> q,

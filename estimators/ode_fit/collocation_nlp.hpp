@@ -8,14 +8,17 @@ namespace flexspline::estimators {
 
 /// The fit as one sparse problem: half the sum of squared residuals over the unknowns and the
 /// states at all nodes, subject to the law at each node. Variables are divided by their scales; the
-/// states of node n are variables unknowns + n states, and its rows n states of the constraints.
+/// states of node n are variables unknowns + n states, and its rows n states of the constraints;
+/// inequalities are the last rows.
 class CollocationNlp final : public SparseNlp {
  public:
   CollocationNlp(const OdeLayout& layout, const TwiceOdeSystem& system,
                  const std::vector<Mesh>& meshes);
 
   std::size_t variables() const override;
-  std::size_t constraints() const override { return nodes_.size() * states_; }
+  std::size_t constraints() const override { return laws() + inequalities(); }
+  std::size_t elements() const { return nodes_.size() / kStages; }
+  void constraint_bounds(std::span<double> lower, std::span<double> upper) const override;
   void bounds(std::span<double> lower, std::span<double> upper) const override;
   SparsePattern jacobian_pattern() const override;
   SparsePattern hessian_pattern() const override;
@@ -46,6 +49,13 @@ class CollocationNlp final : public SparseNlp {
     std::size_t node;
   };
 
+  std::size_t laws() const { return nodes_.size() * states_; }
+  std::size_t inequalities() const {
+    return layout_.inequalities != nullptr ? layout_.inequalities->count() : 0;
+  }
+  std::vector<double> parameters(std::span<const double> x) const;
+  void add_inequality_curvature(std::span<const double> x, std::span<const double> lambda,
+                                std::span<double> values) const;
   const LaidOutExperiment& experiment(std::size_t e) const { return layout_.experiments[e]; }
   std::size_t first_variable(std::size_t node) const { return unknown_count_ + node * states_; }
   double scale(std::size_t variable) const;
@@ -64,7 +74,8 @@ class CollocationNlp final : public SparseNlp {
                          Eigen::MatrixXd& derivative) const;
   void add_law_curvature(std::span<const double> x, std::size_t node,
                          std::span<const double> lambda, Eigen::MatrixXd& curvature) const;
-  Eigen::MatrixXd reading_curvature(const Reading& reading, double factor) const;
+  Eigen::MatrixXd reading_curvature(std::span<const double> x, const Reading& reading,
+                                    double factor) const;
 
   const OdeLayout& layout_;
   const TwiceOdeSystem& system_;

@@ -1,10 +1,16 @@
+#include <algorithm>
+
 #include "flexspline/estimators/ode_fit.hpp"
 #include "ode_fit/check.hpp"
 #include "ode_fit/methods.hpp"
+#include "ode_fit/noise.hpp"
 #include "ode_fit/statistics.hpp"
 
 namespace flexspline::estimators {
 namespace {
+
+constexpr int kWeighings = 25;
+constexpr double kSettled = 1e-7;  // relative change of a weight
 
 Result<OdeSolution> solve(const OdeLayout& layout, OdeFitMethod method,
                           const OdeFitSettings& settings) {
@@ -16,6 +22,48 @@ Result<OdeSolution> solve(const OdeLayout& layout, OdeFitMethod method,
     default:
       return single_shooting(layout, settings);
   }
+}
+
+std::size_t free_count(const OdeLayout& layout, const OdeSolution& solution) {
+  auto q = solution.q;
+  const auto active = settle_on_bounds(layout, q);
+  return static_cast<std::size_t>(std::ranges::count(active, false));
+}
+
+void start_at(OdeLayout& layout, const std::vector<double>& q) {
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    auto& unknown = layout.unknowns[k];
+    unknown.start = std::clamp(q[k], unknown.lower, unknown.upper);
+  }
+}
+
+// Maximum likelihood over parameters and noise, one after the other until both stay.
+Result<OdeSolution> solve_and_weigh(OdeLayout& layout, OdeFitMethod method,
+                                    const OdeFitSettings& settings,
+                                    std::vector<OutputNoise>& noise) {
+  auto solution = solve(layout, method, settings);
+  if (settings.weighting == Weighting::given) return solution;
+  for (int round = 0; solution && round < kWeighings; ++round) {
+    const auto change =
+        weigh_anew(layout, solution->q, free_count(layout, *solution), settings, noise);
+    if (!change) return tl::unexpected(change.error());
+    start_at(layout, solution->q);
+    const int iterations = solution->iterations;
+    const long evaluations = solution->evaluations;
+    solution = solve(layout, method, settings);
+    if (!solution) break;
+    solution->iterations += iterations;
+    solution->evaluations += evaluations;
+    if (*change < kSettled) return solution;
+  }
+  if (solution) solution->notes.push_back("the weights of the outputs have not settled");
+  return solution;
+}
+
+std::size_t most_outputs(const OdeLayout& layout) {
+  std::size_t most = 0;
+  for (const auto& experiment : layout.experiments) most = std::max(most, experiment.outputs());
+  return most;
 }
 
 }  // namespace
@@ -33,14 +81,18 @@ std::string_view name_of(OdeFitMethod method) {
 
 Result<OdeFit> fit_ode(const OdeFitProblem& problem, OdeFitMethod method,
                        const OdeFitSettings& settings) {
+  if (auto checked = check(settings); !checked) return tl::unexpected(std::move(checked).error());
   if (auto checked = check(problem); !checked) return tl::unexpected(std::move(checked).error());
-  const OdeLayout layout = lay_out(problem);
-  auto solution = solve(layout, method, settings);
+  OdeLayout layout = lay_out(problem, settings);
+  std::vector<OutputNoise> noise(most_outputs(layout));
+  auto solution = solve_and_weigh(layout, method, settings, noise);
   if (!solution) {
     return tl::unexpected(in_context(std::move(solution).error(), std::string(name_of(method))));
   }
-  OdeFit fit = with_statistics(layout, *solution, settings);
-  fit.method = method;
+  auto fit = with_statistics(layout, *solution, settings);
+  if (!fit) return tl::unexpected(in_context(fit.error(), std::string(name_of(method))));
+  fit->method = method;
+  fit->noise = std::move(noise);
   return fit;
 }
 

@@ -21,16 +21,6 @@ struct Knots {
   }
 };
 
-std::optional<std::size_t> output_that_shows(const LaidOutExperiment& experiment,
-                                             std::size_t state) {
-  for (std::size_t o = 0; o < experiment.outputs(); ++o) {
-    const auto row = experiment.source.observation.row(static_cast<Eigen::Index>(o));
-    const double gain = std::abs(row[static_cast<Eigen::Index>(state)]);
-    if (gain > 0.0 && row.cwiseAbs().sum() == gain) return o;
-  }
-  return std::nullopt;
-}
-
 Knots knots_of(const LaidOutExperiment& experiment, std::size_t state, std::size_t output,
                double initial) {
   Knots knots;
@@ -62,6 +52,16 @@ std::vector<double> simulated(const OdeLayout& layout, std::span<const double> i
 }
 
 }  // namespace
+
+std::optional<std::size_t> output_that_shows(const LaidOutExperiment& experiment,
+                                             std::size_t state) {
+  for (std::size_t o = 0; o < experiment.outputs(); ++o) {
+    const auto row = experiment.source.observation.row(static_cast<Eigen::Index>(o));
+    const double gain = std::abs(row[static_cast<Eigen::Index>(state)]);
+    if (gain > 0.0 && row.cwiseAbs().sum() == gain) return o;
+  }
+  return std::nullopt;
+}
 
 std::vector<double> guess_states(const OdeLayout& layout, const LaidOutExperiment& experiment,
                                  std::span<const double> times, double tolerance) {

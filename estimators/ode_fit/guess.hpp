@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "ode_fit/layout.hpp"
 
 namespace flexspline::estimators {
@@ -9,5 +11,9 @@ namespace flexspline::estimators {
 /// values, else (where that fails) as at the start.
 std::vector<double> guess_states(const OdeLayout& layout, const LaidOutExperiment& experiment,
                                  std::span<const double> times, double tolerance);
+
+/// The output that shows this state and no other.
+std::optional<std::size_t> output_that_shows(const LaidOutExperiment& experiment,
+                                             std::size_t state);
 
 }  // namespace flexspline::estimators

@@ -86,8 +86,9 @@ SystemSettings OdeLayout::integration(double tolerance) const {
   return settings;
 }
 
-OdeLayout lay_out(const OdeFitProblem& problem) {
-  OdeLayout layout{problem.system, problem.parameters, {}, problem.state_scale};
+OdeLayout lay_out(const OdeFitProblem& problem, const OdeFitSettings& settings) {
+  OdeLayout layout{problem.system,      problem.parameters,   {},
+                   problem.state_scale, problem.inequalities, {settings.loss, settings.loss_scale}};
   for (const auto& experiment : problem.experiments) {
     layout.experiments.push_back(lay_out(experiment, layout.states(), layout.unknowns));
   }

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "flexspline/estimators/ode_fit.hpp"
+#include "ode_fit/loss.hpp"
+#include "uncertainty/coloured_noise.hpp"
 
 namespace flexspline::estimators {
 
@@ -21,6 +23,7 @@ struct Source {
 struct LaidOutExperiment {
   OdeExperiment source;
   std::vector<Source> initial;
+  std::vector<WhiteningFilter> whitening{};  ///< one an output over what counts of it; or empty
 
   std::size_t outputs() const { return source.sigma.size(); }
   double start_time() const { return source.start_time; }
@@ -40,13 +43,15 @@ struct OdeLayout {
   std::vector<OdeParameter> unknowns;
   std::vector<LaidOutExperiment> experiments;
   std::vector<double> state_scale;
+  std::shared_ptr<const OdeInequalities> inequalities{};
+  RobustLoss loss{};
 
   std::size_t states() const { return system->states(); }
   std::vector<double> start() const;
   SystemSettings integration(double tolerance) const;
 };
 
-OdeLayout lay_out(const OdeFitProblem& problem);
+OdeLayout lay_out(const OdeFitProblem& problem, const OdeFitSettings& settings = {});
 
 /// What a method found.
 struct OdeSolution {
@@ -58,6 +63,8 @@ struct OdeSolution {
   double gap = 0.0;
   std::size_t elements = 0;
   std::vector<std::string> notes{};
+  Eigen::MatrixXd active_gradients{};  ///< of active inequalities by q, a row each
+  std::vector<std::string> active_inequalities{};
 };
 
 /// Half the sum of squared residuals of the measurements alone, at zero model: what the cost is

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "ode_fit/methods.hpp"
-#include "ode_fit/shooting_problem.hpp"
+#include "ode_fit/weighted_shooting.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -41,33 +41,42 @@ void take(OdeSolution& solution, const LeastSquaresSolution& found) {
   solution.evaluations += found.evaluations;
 }
 
+tl::unexpected<Error> no_inequalities() {
+  return failure(ErrorCode::usage, "shooting knows bounds of parameters, but no other inequalities",
+                 "fit by collocation, or write the law so that it cannot break them");
+}
+
 }  // namespace
 
 Result<OdeSolution> single_shooting(const OdeLayout& layout, const OdeFitSettings& settings) {
-  const ShootingProblem problem(layout, settings.integration_tolerance, 1);
-  auto found = minimise(problem, problem.bounded_parameters(), solver_settings(settings));
+  if (layout.inequalities != nullptr) return no_inequalities();
+  const ShootingProblem shots(layout, settings.integration_tolerance, 1);
+  const WeightedShooting problem(layout, shots);
+  auto found = minimise(problem, shots.bounded_parameters(), solver_settings(settings));
   if (!found) return tl::unexpected(std::move(found).error());
   OdeSolution solution;
   take(solution, *found);
-  solution.elements = problem.blocks();
+  solution.elements = shots.blocks();
   return solution;
 }
 
 // Joins the segments by the method of multipliers, whose solution has no jumps at finite weight
 // (Hestenes, 1969; Powell, 1969). Weights grow first, so that early steps may leave jumps.
 Result<OdeSolution> multiple_shooting(const OdeLayout& layout, const OdeFitSettings& settings) {
-  ShootingProblem problem(layout, settings.integration_tolerance, settings.segments);
-  auto parameters = problem.bounded_parameters();
+  if (layout.inequalities != nullptr) return no_inequalities();
+  ShootingProblem shots(layout, settings.integration_tolerance, settings.segments);
+  const WeightedShooting problem(layout, shots);
+  auto parameters = shots.bounded_parameters();
   OdeSolution solution;
-  solution.elements = problem.blocks();
+  solution.elements = shots.blocks();
   bool closed = false;
   for (std::size_t pass = 0; pass < kPasses && !closed; ++pass) {
-    problem.set_weight(kWeights[std::min(pass, std::size(kWeights) - 1)]);
+    shots.set_weight(kWeights[std::min(pass, std::size(kWeights) - 1)]);
     const auto found = minimise(problem, parameters, pass_settings(settings, pass));
     if (!found) return tl::unexpected(found.error());
     take(solution, *found);
     for (std::size_t k = 0; k < parameters.size(); ++k) parameters[k].start = found->p[k];
-    const auto jumps = problem.update_multipliers(found->p);
+    const auto jumps = shots.update_multipliers(found->p);
     const auto cost = problem.data_cost(found->p);
     if (!jumps || !cost) return tl::unexpected(jumps ? cost.error() : jumps.error());
     solution.gap = jumps->largest;

@@ -160,14 +160,4 @@ Result<Jumps> ShootingProblem::update_multipliers(std::span<const double> q) {
   return jumps;
 }
 
-Result<double> ShootingProblem::data_cost(std::span<const double> q) const {
-  double sum = 0.0;
-  for (const auto& segment : segments_) {
-    auto residual = values(segment, q);
-    if (!residual) return tl::unexpected(std::move(residual).error());
-    for (std::size_t k = 0; k < segment.data(); ++k) sum += (*residual)[k] * (*residual)[k];
-  }
-  return 0.5 * sum;
-}
-
 }  // namespace flexspline::estimators

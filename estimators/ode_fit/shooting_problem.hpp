@@ -26,13 +26,15 @@ class ShootingProblem final : public LeastSquaresProblem {
 
   /// Bounds and starts of all unknowns, nodes last and where the measurements are.
   std::vector<BoundedParameter> bounded_parameters() const;
-  std::size_t nodes() const { return nodes_; }
+  const LaidOutExperiment& experiment(std::size_t block) const {
+    return *segments_[block].experiment;
+  }
+  /// Residuals of a block that are measurements; those of the jump follow them.
+  std::size_t data(std::size_t block) const { return segments_[block].data(); }
 
   void set_weight(double weight);
   /// Takes the jumps' share into the multipliers.
   Result<Jumps> update_multipliers(std::span<const double> q);
-  /// Half the sum of squares of the measurements' residuals alone.
-  Result<double> data_cost(std::span<const double> q) const;
 
  private:
   struct Segment {

@@ -53,8 +53,11 @@ class Bridge final : public Ipopt::TNLP {
       x_l[k] = std::max(x_l[k], -kUnbounded);
       x_u[k] = std::min(x_u[k], kUnbounded);
     }
-    std::fill_n(g_l, m, 0.0);
-    std::fill_n(g_u, m, 0.0);
+    nlp_.constraint_bounds(view(g_l, m), view(g_u, m));
+    for (Index k = 0; k < m; ++k) {
+      g_l[k] = std::max(g_l[k], -kUnbounded);
+      g_u[k] = std::min(g_u[k], kUnbounded);
+    }
     return true;
   }
 
@@ -92,7 +95,13 @@ class Bridge final : public Ipopt::TNLP {
     solution.x.assign(x, x + n);
     solution.objective = f;
     solution.violation = 0.0;
-    for (Index k = 0; k < m; ++k) solution.violation = std::max(solution.violation, std::abs(c[k]));
+    const auto rows = static_cast<std::size_t>(m);
+    std::vector<double> lower(rows);
+    std::vector<double> upper(rows);
+    nlp_.constraint_bounds(lower, upper);
+    for (std::size_t k = 0; k < rows; ++k) {
+      solution.violation = std::max({solution.violation, lower[k] - c[k], c[k] - upper[k]});
+    }
   }
 
   bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number, Number,
@@ -140,6 +149,11 @@ Termination termination_of(Ipopt::ApplicationReturnStatus status) {
 }
 
 }  // namespace
+
+void SparseNlp::constraint_bounds(std::span<double> lower, std::span<double> upper) const {
+  std::ranges::fill(lower, 0.0);
+  std::ranges::fill(upper, 0.0);
+}
 
 Result<NlpSolution> minimise(const SparseNlp& nlp, std::span<const double> start,
                              const NlpSettings& settings) {

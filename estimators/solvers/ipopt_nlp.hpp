@@ -21,8 +21,9 @@ struct SparsePattern {
   std::size_t size() const { return row.size(); }
 };
 
-/// min f(x) subject to c(x) = 0 and lower <= x <= upper, with exact sparse derivatives. What is
-/// evaluated returns false where x cannot be evaluated; the solver then takes a shorter step.
+/// min f(x) subject to bounds on x and on c(x) (c = 0 unless said), with exact sparse derivatives.
+/// What is evaluated returns false where x cannot be evaluated; the solver then takes a shorter
+/// step.
 class SparseNlp {
  public:
   virtual ~SparseNlp() = default;
@@ -30,6 +31,7 @@ class SparseNlp {
   virtual std::size_t variables() const = 0;
   virtual std::size_t constraints() const = 0;
   virtual void bounds(std::span<double> lower, std::span<double> upper) const = 0;
+  virtual void constraint_bounds(std::span<double> lower, std::span<double> upper) const;
   virtual SparsePattern jacobian_pattern() const = 0;
   /// Lower triangle of the Lagrangian's Hessian; no place twice.
   virtual SparsePattern hessian_pattern() const = 0;
@@ -53,7 +55,7 @@ struct NlpSettings {
 struct NlpSolution {
   std::vector<double> x;
   double objective = kNotComputed;
-  double violation = kNotComputed;  ///< largest |c|
+  double violation = kNotComputed;  ///< largest distance of c from its bounds
   Termination termination = Termination::not_run;
   std::string status;  ///< the solver's word for it
   int iterations = 0;

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "ode_fit/layout.hpp"
+
+namespace flexspline::estimators {
+
+/// Weighs the layout's outputs anew by what they leave at q, with `free` parameters taken from it,
+/// and keeps a record in `noise` (against the sigmas of the description). Outputs of the same
+/// number share their noise over experiments. Returns the largest relative change of a weight.
+/// Errors: numerics, where q cannot be integrated or an output is fitted without any residual.
+Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q, std::size_t free,
+                          const OdeFitSettings& settings, std::vector<OutputNoise>& noise);
+
+}  // namespace flexspline::estimators

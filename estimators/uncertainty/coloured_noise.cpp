@@ -1,0 +1,151 @@
+#include "uncertainty/coloured_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr double kMostShare = 0.999;  // some white noise keeps the filter regular
+constexpr int kTimes = 16;            // of the first search
+constexpr int kShares = 10;
+constexpr double kFinest = 1e-7;  // last step of the search, in ln time and share
+
+struct Spread {
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0.0;
+  std::size_t count = 0;
+};
+
+Spread spread_of(std::span<const TimedSeries> series) {
+  Spread spread;
+  for (const auto& one : series) {
+    spread.count += one.time.size();
+    if (one.time.size() < 2) continue;
+    spread.longest = std::max(spread.longest, one.time.back() - one.time.front());
+    const double mean =
+        (one.time.back() - one.time.front()) / static_cast<double>(one.time.size() - 1);
+    spread.shortest = std::min(spread.shortest, mean);
+  }
+  return spread;
+}
+
+// Minus twice the log-likelihood at the best sigma, without constants.
+double deviance(std::span<const TimedSeries> series, double share, double time, double& sigma) {
+  const ColouredNoise unit{1.0, share, time};
+  double sum = 0.0;
+  double log_variance = 0.0;
+  double count = 0.0;
+  for (const auto& one : series) {
+    const WhiteningFilter filter(unit, one.time);
+    auto value = one.value;
+    filter.whiten(value);
+    for (double v : value) sum += v * v;
+    log_variance += filter.log_variance();
+    count += static_cast<double>(value.size());
+  }
+  sigma = std::sqrt(sum / count);
+  return sum > 0.0 ? count * std::log(sum / count) + log_variance
+                   : -std::numeric_limits<double>::infinity();
+}
+
+struct Point {
+  double share = 0.0;
+  double log_time = 0.0;
+  double deviance = std::numeric_limits<double>::infinity();
+};
+
+Point coarse_search(std::span<const TimedSeries> series, const Spread& spread) {
+  Point best;
+  double sigma = 0.0;
+  const double from = std::log(0.3 * spread.shortest);
+  const double to = std::log(0.5 * spread.longest);
+  for (int t = 0; t < kTimes; ++t) {
+    for (int s = 1; s <= kShares; ++s) {
+      Point here{kMostShare * s / kShares, from + (to - from) * t / (kTimes - 1), 0.0};
+      here.deviance = deviance(series, here.share, std::exp(here.log_time), sigma);
+      if (here.deviance < best.deviance) best = here;
+    }
+  }
+  return best;
+}
+
+// Compass search: derivatives are not worth having here.
+Point refined(std::span<const TimedSeries> series, const Spread& spread, Point best) {
+  double sigma = 0.0;
+  const double from = std::log(0.1 * spread.shortest);
+  const double to = std::log(2.0 * spread.longest);
+  double share_step = 0.05;
+  double time_step = 0.3;
+  while (share_step > kFinest) {
+    Point next = best;
+    const double moves[4][2] = {
+        {share_step, 0.0}, {-share_step, 0.0}, {0.0, time_step}, {0.0, -time_step}};
+    for (const auto& move : moves) {
+      Point trial{std::clamp(best.share + move[0], 0.0, kMostShare),
+                  std::clamp(best.log_time + move[1], from, to), 0.0};
+      trial.deviance = deviance(series, trial.share, std::exp(trial.log_time), sigma);
+      if (trial.deviance < next.deviance) next = trial;
+    }
+    if (!(next.deviance < best.deviance)) {
+      share_step *= 0.5;
+      time_step *= 0.5;
+    }
+    best = next;
+  }
+  return best;
+}
+
+}  // namespace
+
+WhiteningFilter::WhiteningFilter(const ColouredNoise& noise, std::span<const double> times) {
+  const double stationary = noise.share * noise.sigma * noise.sigma;
+  const double white = (1.0 - noise.share) * noise.sigma * noise.sigma;
+  double variance = stationary;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    double transition = 1.0;
+    if (k > 0) {
+      transition = noise.time > 0.0 ? std::exp(-(times[k] - times[k - 1]) / noise.time) : 0.0;
+      variance = transition * transition * variance + stationary * (1.0 - transition * transition);
+    }
+    const double innovation = variance + white;
+    const double update = variance / innovation;
+    steps_.push_back({transition, update, 1.0 / std::sqrt(innovation)});
+    variance *= 1.0 - update;
+  }
+}
+
+void WhiteningFilter::whiten(std::span<double> series, std::size_t stride) const {
+  double process = 0.0;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    double& value = series[k * stride];
+    process *= step.transition;
+    const double innovation = value - process;
+    process += step.update * innovation;
+    value = innovation * step.weight;
+  }
+}
+
+double WhiteningFilter::log_variance() const {
+  double sum = 0.0;
+  for (const auto& step : steps_) sum -= 2.0 * std::log(step.weight);
+  return sum;
+}
+
+ColouredNoise estimate_noise(std::span<const TimedSeries> series) {
+  const Spread spread = spread_of(series);
+  ColouredNoise white;
+  if (spread.count == 0) return white;
+  const double flat = deviance(series, 0.0, 0.0, white.sigma);
+  if (!(spread.longest > 0.0) || !std::isfinite(flat)) return white;
+  const Point best = refined(series, spread, coarse_search(series, spread));
+  const double asked = 2.0 * std::log(static_cast<double>(spread.count));
+  if (!(best.deviance + asked < flat)) return white;
+  ColouredNoise noise{1.0, best.share, std::exp(best.log_time)};
+  deviance(series, noise.share, noise.time, noise.sigma);
+  return noise;
+}
+
+}  // namespace flexspline::estimators

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace flexspline::estimators {
+
+/// Noise of a measured series: a first-order process (in even steps an AR(1)) beside white noise.
+struct ColouredNoise {
+  double sigma = 1.0;  ///< of both together
+  double share = 0.0;  ///< of the variance that is the first-order process, 0: all white
+  double time = 0.0;   ///< over which its correlation falls to 1/e; 0 where share is
+};
+
+/// One series of residuals with its instants, increasing.
+struct TimedSeries {
+  std::vector<double> time;
+  std::vector<double> value;
+};
+
+/// Maximum likelihood over all series, by the prediction errors of the scalar Kalman filter
+/// (Schweppe 1965). White where a colour gains less than the Bayesian criterion asks of two
+/// parameters.
+ColouredNoise estimate_noise(std::span<const TimedSeries> series);
+
+/// Turns residuals into the innovations of such noise over their standard deviations: independent
+/// and of unit variance, so that their least squares is maximum likelihood. Linear, so Jacobians
+/// pass through it as well.
+class WhiteningFilter {
+ public:
+  WhiteningFilter(const ColouredNoise& noise, std::span<const double> times);
+
+  std::size_t size() const { return steps_.size(); }
+  /// In place, every stride-th value of the series.
+  void whiten(std::span<double> series, std::size_t stride = 1) const;
+  /// Sum of ln of the innovations' variances.
+  double log_variance() const;
+
+ private:
+  struct Step {
+    double transition;  // of the process since the last instant
+    double update;      // share of an innovation that goes into it
+    double weight;      // 1 / standard deviation of the innovation
+  };
+  std::vector<Step> steps_;
+};
+
+}  // namespace flexspline::estimators
