@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/effect_dependence.hpp"
+#include "rigs/drive_at.hpp"
 
 namespace flexspline {
 namespace {

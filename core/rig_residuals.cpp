@@ -8,6 +8,7 @@
 
 #include "flexspline/core/effect_path.hpp"
 #include "flexspline/core/law.hpp"
+#include "path_reactions.hpp"
 
 namespace flexspline {
 namespace {
@@ -101,10 +102,24 @@ Result<Series> torsion_law_along(Rig rig, const DriveSpec& drive, const Path& ri
   return torque;
 }
 
-// J1 theta_m'' + B1 theta_m' + tau_f + effects.
-Result<Series> motor_side(const DriveSpec& drive, const Path& path) {
+// Adds what the transmission returns to a shaft that both turn. A servo's is rigid.
+Result<void> add_reactions(Rig rig, const DriveSpec& drive, const Path& path,
+                           double Instant<double>::*angle, Series& sum) {
+  if (rig == Rig::servo || rig == Rig::specimen) return {};
+  const auto seen = seen_by_the_law(drive, path);
+  if (!seen) return tl::unexpected(seen.error());
+  const auto returned = reactions_along(drive.torsion, path, *seen, angle);
+  if (!returned) return tl::unexpected(returned.error());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (*returned)[i];
+  return {};
+}
+
+// J1 theta_m'' + B1 theta_m' + tau_f + effects, and what the kinematics return.
+Result<Series> motor_side(Rig rig, const DriveSpec& drive, const Path& path) {
   auto sum = effects_at({Site::motor}, drive, path);
   if (!sum) return sum;
+  const auto done = add_reactions(rig, drive, path, &Instant<double>::motor_angle, *sum);
+  if (!done) return tl::unexpected(done.error());
   for (std::size_t i = 0; i < path.size(); ++i) {
     const auto& x = path[i];
     (*sum)[i] += drive.motor_inertia * x.motor_acceleration + drive.motor_viscous * x.motor_speed +
@@ -120,6 +135,8 @@ Result<Series> load_side(Rig rig, const DriveSpec& drive, const Path& path,
   auto sum = rig == Rig::servo ? effects_at({Site::load, Site::transmission}, drive, path)
                                : effects_at({Site::load}, drive, path);
   if (!sum) return sum;
+  const auto done = add_reactions(rig, drive, path, &Instant<double>::load_angle, *sum);
+  if (!done) return tl::unexpected(done.error());
   const double weight = drive.load_mass * drive.gravity * drive.arm_length;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const auto& x = path[i];
@@ -199,7 +216,7 @@ DriveResiduals formable(Rig rig, const DriveChannels& c) {
 Result<DriveResiduals> residuals(Rig rig, const DriveSpec& drive, const DriveChannels& c) {
   if (auto good = same_lengths(c); !good) return tl::unexpected(good.error());
   const Path path = path_of(rig, drive, c);
-  const auto motor = motor_side(drive, path);
+  const auto motor = motor_side(rig, drive, path);
   const auto load = load_side(rig, drive, path, c.load_torque);
   const auto law = torsion_law_along(rig, drive, path);
   for (const auto* side : {&motor, &load, &law}) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "flexspline/core/effect_path.hpp"
-#include "rigs/drive_model.hpp"
+#include "rigs/drive_at.hpp"
 
 namespace flexspline {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/rig.hpp"
-#include "rigs/drive_model.hpp"
+#include "rigs/drive_at.hpp"
 
 namespace flexspline {
 

@@ -51,6 +51,26 @@ TEST(Residuals, AreZeroOnWhatWasSimulated) {
   EXPECT_LT(largest(r->drive.value), 50.0 * kNothing);
 }
 
+// What the kinematics return to the shafts is in both equations.
+TEST(Residuals, AreZeroOnWhatWasSimulatedWithKinematics) {
+  DriveSpec drive = example_drive();
+  drive.torsion.effects = {
+      {"kinematic_error", {{"amplitude", 1.5e-4}, {"order", 2.0}, {"phase", 0.4}}},
+      {"output_kinematic_error", {{"amplitude", 1e-4}, {"order", 1.0}, {"phase", 0.2}}},
+      {"series_compliance", {{"compliance", 4.8e-5}}},
+      {"load_dependent_kinematic_error", {{"compliance", 2e-5}, {"order", 2.0}, {"phase", 0.1}}},
+      {"stiffness_ripple", {{"stiffness", 600.0}, {"order", 2.0}, {"phase", 0.7}}}};
+  const Bench bench = free_bench(drive);
+  const auto r = residuals(Rig::free, drive, bench.channels);
+  ASSERT_TRUE(r) << r.error().message();
+  EXPECT_LT(largest(r->motor.value), 1e-4 * largest(bench.channels.motor_torque));
+  EXPECT_LT(largest(r->load.value), kNothing);
+  drive.torsion.effects.clear();
+  const auto without = residuals(Rig::free, drive, bench.channels);
+  ASSERT_TRUE(without);
+  EXPECT_GT(largest(without->motor.value), 1e-2 * largest(bench.channels.motor_torque));
+}
+
 TEST(Residuals, ShowACauseInItsOwnEquation) {
   DriveSpec motor = example_drive();
   motor.motor_viscous *= 1.5;
