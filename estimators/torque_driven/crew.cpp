@@ -1,0 +1,69 @@
+#include "torque_driven/crew.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace flexspline::estimators {
+namespace {
+
+std::atomic<int>& running_fits() {
+  static std::atomic<int> count = 0;
+  return count;
+}
+
+}  // namespace
+
+Crew::Crew(int threads) {
+  for (int k = 1; k < threads; ++k) threads_.emplace_back([this] { wait_for_work(); });
+}
+
+Crew::~Crew() {
+  {
+    const std::lock_guard lock(mutex_);
+    leave_ = true;
+  }
+  wake_.notify_all();
+}
+
+void Crew::run(std::size_t pieces, const std::function<void(std::size_t)>& work) {
+  if (threads_.empty() || pieces < 2) {
+    for (std::size_t k = 0; k < pieces; ++k) work(k);
+    return;
+  }
+  std::unique_lock lock(mutex_);
+  work_ = &work;
+  pieces_ = undone_ = pieces;
+  next_ = 0;
+  wake_.notify_all();
+  take_pieces(lock);
+  finished_.wait(lock, [this] { return undone_ == 0; });
+}
+
+void Crew::take_pieces(std::unique_lock<std::mutex>& lock) {
+  while (next_ < pieces_) {
+    const std::size_t piece = next_++;
+    const auto* work = work_;
+    lock.unlock();
+    (*work)(piece);
+    lock.lock();
+    if (--undone_ == 0) finished_.notify_one();
+  }
+}
+
+void Crew::wait_for_work() {
+  std::unique_lock lock(mutex_);
+  while (!leave_) {
+    wake_.wait(lock, [this] { return leave_ || next_ < pieces_; });
+    take_pieces(lock);
+  }
+}
+
+ProcessorShare::ProcessorShare(int wanted) {
+  const int running = ++running_fits();
+  const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  threads_ = wanted > 0 ? wanted : std::max(1, processors / running);
+}
+
+ProcessorShare::~ProcessorShare() { --running_fits(); }
+
+}  // namespace flexspline::estimators

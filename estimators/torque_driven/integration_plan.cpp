@@ -1,0 +1,140 @@
+#include "torque_driven/integration_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "torque_driven/law.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+// The classical formula is stable up to 2.78 on the negative axis and accurate well below.
+constexpr double kLongestStep = 1.5;
+constexpr double kWantedStep = 1.0;
+// An implicit step costs about two explicit ones.
+constexpr int kMostExplicitParts = 3;
+constexpr int kMostParts = 4096;
+constexpr int kMostRounds = 8;
+
+LanePlan plan_for(double stiffness_of_interval) {
+  const double parts = std::ceil(stiffness_of_interval / kWantedStep);
+  if (parts <= kMostExplicitParts) {
+    return {LaneFormula::runge_kutta, std::max(1, static_cast<int>(parts))};
+  }
+  return {LaneFormula::radau, 1};
+}
+
+// Largest width * |d phi'/d phi| along the measured motion; a few samples tell.
+double stiffness_along(const DrivenProblem& problem, const DrivenSeries& one,
+                       std::span<const double> p) {
+  constexpr std::size_t kLooks = 64;
+  const std::size_t stride = std::max<std::size_t>(1, one.intervals() / kLooks);
+  double largest = 0.0;
+  for (std::size_t n = 0; n < one.intervals(); n += stride) {
+    const double slope = driven_slope(problem, p, one.torque[n], one.motion[n]);
+    largest = std::max(largest, one.width(n) * std::abs(slope));
+  }
+  return largest;
+}
+
+double order_of(LaneFormula formula) { return formula == LaneFormula::radau ? 5.0 : 4.0; }
+
+}  // namespace
+
+IntegrationPlan::IntegrationPlan(const DrivenProblem& problem, std::span<const double> p,
+                                 InstructionSet set, Crew& crew)
+    : problem_(problem), instructions_(set), crew_(crew) {
+  for (const DrivenSeries& one : problem.series) {
+    plans_.push_back(plan_for(stiffness_along(problem, one, p)));
+  }
+  pack();
+}
+
+void IntegrationPlan::pack() {
+  set_ = std::make_unique<LaneSet>(problem_, plans_, instructions_, crew_);
+}
+
+// What overflowed was stiffer than could be seen.
+bool IntegrationPlan::stabilise(const LaneSums& sums) {
+  bool changed = false;
+  for (std::size_t s = 0; s < plans_.size(); ++s) {
+    LanePlan& plan = plans_[s];
+    const double stiffness = sums.stiffness[s];
+    if (plan.formula == LaneFormula::radau || stiffness <= kLongestStep) continue;
+    plan = std::isfinite(stiffness) && std::isfinite(sums.squares[s])
+               ? plan_for(stiffness * plan.parts)
+               : LanePlan{LaneFormula::radau, 1};
+    changed = true;
+  }
+  return changed;
+}
+
+const LaneSums& IntegrationPlan::stable_sums(std::span<const double> p) {
+  for (int round = 0;; ++round) {
+    const LaneSums& sums = set_->sums(p);
+    if (round == kMostRounds || !stabilise(sums)) return sums;
+    pack();
+  }
+}
+
+std::vector<std::vector<double>> IntegrationPlan::states(std::span<const double> p) {
+  return set_->states(p);
+}
+
+Refinement IntegrationPlan::refine(std::span<const double> p, double tolerance) {
+  std::vector<LanePlan> finer = plans_;
+  for (LanePlan& plan : finer) plan.parts *= 2;
+  const auto coarse = set_->states(p);
+  const auto fine = LaneSet(problem_, finer, instructions_, crew_).states(p);
+  Refinement found;
+  for (std::size_t s = 0; s < plans_.size(); ++s) {
+    const double order = order_of(plans_[s].formula);
+    double error = 0.0;
+    for (std::size_t n = 0; n < coarse[s].size(); ++n) {
+      const double weight = problem_.series[s].weight[n + 1];
+      error = std::max(error, weight * std::abs(coarse[s][n] - fine[s][n]));
+    }
+    error /= 1.0 - std::pow(2.0, -order);
+    found.error = std::max(found.error, error);
+    if (!(error > tolerance) || plans_[s].parts >= kMostParts) continue;
+    const double growth =
+        std::ceil(1.1 * plans_[s].parts * std::pow(error / tolerance, 1.0 / order));
+    plans_[s].parts = static_cast<int>(std::clamp(growth, plans_[s].parts + 1.0, 1.0 * kMostParts));
+    found.changed = true;
+  }
+  if (found.changed) pack();
+  return found;
+}
+
+std::size_t IntegrationPlan::stiff() const {
+  return static_cast<std::size_t>(
+      std::ranges::count(plans_, LaneFormula::radau, &LanePlan::formula));
+}
+
+std::optional<NormalEquations> normal_equations(const DrivenProblem& problem,
+                                                const LaneSums& sums) {
+  const auto n = static_cast<Eigen::Index>(problem.size());
+  if (!std::ranges::all_of(sums.normal, [](double v) { return std::isfinite(v); })) {
+    return std::nullopt;
+  }
+  NormalEquations result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
+  std::size_t at = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k <= i; ++k) {
+      result.matrix(i, k) = result.matrix(k, i) = sums.normal[at++];
+    }
+  }
+  for (Eigen::Index k = 0; k < n; ++k) result.gradient[k] = sums.normal[at++];
+  result.cost = 0.5 * sums.normal[at];
+  result.squares = sums.squares;
+  return result;
+}
+
+NormalEvaluation evaluation_by(const DrivenProblem& problem, IntegrationPlan& plan) {
+  return [&](std::span<const double> p) -> std::optional<NormalEquations> {
+    if (!driven_admissible(problem, p)) return std::nullopt;
+    return normal_equations(problem, plan.stable_sums(p));
+  };
+}
+
+}  // namespace flexspline::estimators

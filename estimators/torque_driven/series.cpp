@@ -1,0 +1,155 @@
+#include "torque_driven/series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr double kEven = 1e-9;  // relative jitter up to which sampling counts as even
+
+double largest(std::span<const double> values) {
+  double result = 0.0;
+  for (const double v : values) result = std::max(result, std::abs(v));
+  return result;
+}
+
+Result<void> check(const TorsionRecord& record) {
+  if (record.time.size() < 16) {
+    return failure(ErrorCode::bad_data,
+                   fmt::format("recording {} has {} samples", record.id, record.time.size()),
+                   "give 16 or more");
+  }
+  if (!(largest(record.motion) > 0.0) || !(largest(record.effort) > 0.0)) {
+    return failure(ErrorCode::bad_data,
+                   fmt::format("recording {} has no {}", record.id,
+                               largest(record.motion) > 0.0 ? "torque" : "motion"),
+                   "leave it out");
+  }
+  return {};
+}
+
+// Three-point slopes, as those of the core's spline.
+std::vector<double> spline_slopes(std::span<const double> time, std::span<const double> y) {
+  const std::size_t n = y.size();
+  std::vector<double> slope(n);
+  double secant = (y[1] - y[0]) / (time[1] - time[0]);
+  const double first = secant;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double left = time[i] - time[i - 1];
+    const double right = time[i + 1] - time[i];
+    const double next = (y[i + 1] - y[i]) / right;
+    slope[i] = (secant * right + next * left) / (left + right);
+    secant = next;
+  }
+  slope[0] = 2.0 * first - slope[1];
+  slope[n - 1] = 2.0 * secant - slope[n - 2];
+  return slope;
+}
+
+double even_step(std::span<const double> time) {
+  const double mean = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    const double off = time[i] - time[i - 1] - mean;
+    if (std::abs(off) > kEven * mean + 1e-14 * std::abs(time[i])) return 0.0;
+  }
+  return mean;
+}
+
+DrivenSeries series_of(const TorsionRecord& record, double motion_scale, double torque_scale,
+                       InitialMotion initial) {
+  DrivenSeries one;
+  one.id = record.id;
+  one.time = record.time;
+  const std::size_t n = record.time.size();
+  one.torque.resize(n);
+  one.motion.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    one.torque[i] = record.effort[i] / torque_scale;
+    one.motion[i] = record.motion[i] / motion_scale;
+  }
+  one.torque_slope = spline_slopes(one.time, one.torque);
+  one.step = even_step(one.time);
+  one.initial = initial == InitialMotion::rest ? 0.0 : one.motion.front();
+  const double peak =
+      record.amplitude.value_or(0.0) > 0.0 ? *record.amplitude / motion_scale : largest(one.motion);
+  one.weight.assign(n, 1.0 / peak);
+  for (std::size_t i = 0; i < record.valid.size(); ++i) {
+    if (record.valid[i]) continue;
+    one.weight[i] = 0.0;
+    one.all_valid = false;
+  }
+  return one;
+}
+
+}  // namespace
+
+std::size_t DrivenProblem::residuals() const {
+  std::size_t count = 0;
+  for (const auto& one : series) {
+    count += static_cast<std::size_t>(
+        std::count_if(one.weight.begin() + 1, one.weight.end(), [](double w) { return w > 0.0; }));
+  }
+  return count;
+}
+
+Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, int f, int g, int h,
+                                     InitialMotion initial) {
+  DrivenProblem problem{
+      .motion_scale = 0.0, .torque_scale = 0.0, .f = f, .g = g, .h = h, .series = {}};
+  if (records.empty()) {
+    return failure(ErrorCode::bad_data, "there is no recording to train on",
+                   "mark one with split = \"train\"");
+  }
+  for (const auto& record : records) {
+    if (auto checked = check(record); !checked) return tl::unexpected(checked.error());
+    problem.motion_scale = std::max(problem.motion_scale, largest(record.motion));
+    problem.torque_scale = std::max(problem.torque_scale, largest(record.effort));
+  }
+  for (const auto& record : records) {
+    problem.series.push_back(
+        series_of(record, problem.motion_scale, problem.torque_scale, initial));
+  }
+  if (problem.residuals() <= problem.size()) {
+    return failure(
+        ErrorCode::bad_data,
+        fmt::format("{} samples count, for {} coefficients", problem.residuals(), problem.size()),
+        "record longer, or fit fewer terms");
+  }
+  return problem;
+}
+
+std::vector<double> driven_start(const DrivenProblem& problem) {
+  constexpr std::size_t kSpan = 16;  // samples between which a speed is read, beyond the noise
+  constexpr double kHigher = 0.1;    // of higher terms, over the linear one
+  double torque_motion = 0.0;
+  double motion_motion = 0.0;
+  double speed_speed = 0.0;
+  double lost = 0.0;
+  for (const auto& one : problem.series) {
+    for (std::size_t i = kSpan; i < one.time.size(); i += kSpan) {
+      const double moved = one.motion[i] - one.motion[i - kSpan];
+      torque_motion += one.torque[i] * one.motion[i];
+      motion_motion += one.motion[i] * one.motion[i];
+      speed_speed += moved * moved / (one.time[i] - one.time[i - kSpan]);
+      lost += moved * one.torque[i - kSpan / 2];
+    }
+  }
+  const double stiffness = torque_motion > 0.0 ? torque_motion / motion_motion : 1.0;
+  const double damper = lost > 0.0 ? speed_speed / lost : 1.0;
+  std::vector<double> p(problem.size(), 0.0);
+  for (int k = 0; k < problem.f; ++k)
+    p[static_cast<std::size_t>(k)] = stiffness * (k == 0 ? 1.0 : kHigher);
+  for (int k = 0; k < problem.g; ++k) {
+    p[static_cast<std::size_t>(problem.f + k)] = damper * (k == 0 ? 1.0 : kHigher);
+  }
+  return p;
+}
+
+bool driven_admissible(const DrivenProblem& problem, std::span<const double> p) {
+  return problem.g == 0 || p[static_cast<std::size_t>(problem.f)] > 0.0;
+}
+
+}  // namespace flexspline::estimators
