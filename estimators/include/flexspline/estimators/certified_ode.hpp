@@ -24,4 +24,28 @@ struct CertifiedOde {
 /// All of them, by file name.
 std::span<const CertifiedOde> certified_odes();
 
+/// One fit of one of them.
+struct CertifiedOdeRun {
+  const CertifiedOde* problem = nullptr;
+  OdeFitMethod method = OdeFitMethod::single_shooting;
+  std::vector<double> parameters{};
+  std::vector<double> parameter_digits{};
+  double worst_digits = kNotComputed;  ///< of the system's parameters
+  double worst_offset = kNotComputed;  ///< of a parameter off its bounds, in standard deviations
+  double cost_digits = kNotComputed;
+  double sum_of_squares = kNotComputed;
+  int iterations = 0;
+  double seconds = kNotComputed;
+  Termination termination = Termination::not_run;
+  std::string failure{};  ///< why there is no result
+
+  /// The minimum to 6 digits, and every parameter within a hundredth of a standard deviation.
+  bool passed() const;
+};
+
+inline constexpr double kRequiredOdeDigits = 6.0;
+
+/// Fits the problem from its start. All problems are fitted with the same settings.
+CertifiedOdeRun run_certified(const CertifiedOde& problem, OdeFitMethod method);
+
 }  // namespace flexspline::estimators
