@@ -32,6 +32,35 @@ std::string further_words(const ordered_json& row) {
                           "states", "passive", "rate_independent"}) {
     text += fmt::format("\n  {:<18} {}", key, words(row.at(key)));
   }
+  if (!words(row.at("active_because")).empty()) {
+    text += fmt::format("\n  {:<18} {}", "active because", words(row.at("active_because")));
+  }
+  return text;
+}
+
+std::string said(const ordered_json& one) {
+  return fmt::format("\n    {:<24} {}, {}", words(one.at("name")), words(one.at("unit")),
+                     words(one.at("says")));
+}
+
+/// A way in which a rig is simulated: what drives it and what it integrates.
+std::string form_words(const ordered_json& form) {
+  std::string text = fmt::format("\n  form {:<13} {}; driven by {}", words(form.at("id")),
+                                 words(form.at("says")), words(form.at("inputs")));
+  for (const ordered_json& one : form.at("states")) text += said(one);
+  return text;
+}
+
+/// What a rig says beyond what it is.
+std::string rig_words(const ordered_json& row) {
+  std::string text;
+  if (!row.contains("forms")) return text;
+  for (const char* key : {"equations", "not_modelled", "outputs", "residuals"}) {
+    text += fmt::format("\n  {:<18} {}", key, words(row.at(key)));
+  }
+  for (const ordered_json& form : row.at("forms")) text += form_words(form);
+  if (!row.at("constants").empty()) text += "\n  constants";
+  for (const ordered_json& one : row.at("constants")) text += said(one);
   return text;
 }
 
@@ -42,7 +71,7 @@ std::string catalogue_text(const ordered_json& rows) {
   for (const ordered_json& row : rows) {
     text += fmt::format("{}{:<26} {}", text.empty() ? "" : "\n", row.at("id").get<std::string>(),
                         row.at("says").get<std::string>());
-    text += further_words(row);
+    text += further_words(row) + rig_words(row);
     for (const char* list : {"options", "parameters"}) {
       if (!row.contains(list)) continue;
       for (const ordered_json& one : row.at(list)) {

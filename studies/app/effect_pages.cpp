@@ -24,6 +24,10 @@ std::string memory_of(const EffectRow& row) {
                      row.repeats ? " an element" : "");
 }
 
+std::string passivity_of(const EffectRow& row) {
+  return row.passive ? "yes" : fmt::format("no: {}", row.active_because);
+}
+
 std::string facts(const EffectRow& row) {
   const auto yes = [](bool is) { return is ? "yes" : "no"; };
   return fmt::format(
@@ -34,7 +38,7 @@ std::string facts(const EffectRow& row) {
       "| memory | {} |\n"
       "| passive: makes no energy over a closed cycle | {} |\n"
       "| rate independent | {} |\n",
-      site_in_words(row.site), row.coordinate, rigs_of(row), memory_of(row), yes(row.passive),
+      site_in_words(row.site), row.coordinate, rigs_of(row), memory_of(row), passivity_of(row),
       yes(row.rate_independent));
 }
 

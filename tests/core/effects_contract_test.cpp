@@ -39,6 +39,7 @@ TEST_P(EveryEffect, SaysWhatItIs) {
   EXPECT_FALSE(row().range.empty());
   EXPECT_FALSE(row().not_modelled.empty());
   EXPECT_FALSE(row().source.empty());
+  EXPECT_EQ(row().active_because.empty(), row().passive) << "says why it may make energy";
   EXPECT_FALSE(row().rigs.empty());
   EXPECT_NE(name_of(row().site), "unknown");
   EXPECT_EQ(std::set(row().rigs.begin(), row().rigs.end()).size(), row().rigs.size());
@@ -126,8 +127,8 @@ double partner_of(Site site, const Instant<double>& x) {
 // periodic, so that conservative effects come out at rounding.
 TEST_P(EveryEffect, MakesNoEnergyOverAClosedCycle) {
   if (on_instrument(row().site)) GTEST_SKIP() << "does no work";
-  if (!row().passive) GTEST_SKIP() << "declared active";
-  if (row().id == "backlash") GTEST_SKIP() << "torque and torsion of the path are not its own";
+  if (!row().passive) GTEST_SKIP() << row().active_because << ": effects_passivity_test";
+  if (row().id == "backlash") GTEST_SKIP() << "of its own torque: effects_passivity_test";
   for (double period : {1.0, 30.0}) {
     constexpr std::size_t kPerCycle = 4000;
     const auto path = drive_path(period, kPerCycle, 2);

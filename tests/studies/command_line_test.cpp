@@ -130,6 +130,16 @@ TEST_F(CommandLine, ListsEveryCatalogue) {
   }
 }
 
+TEST_F(CommandLine, ListsTheFormsConstantsAndResidualsOfRigsInWords) {
+  const Finished done = call("list rigs");
+  ASSERT_EQ(done.code, 0);
+  for (const char* words :
+       {"form position_loop", "driven by commanded_angle", "loop_integral", "equations",
+        "motor_inertia            kg m2", "residuals          motor, load, torsion, drive"}) {
+    EXPECT_THAT(done.result, HasSubstr(words));
+  }
+}
+
 TEST_F(CommandLine, SchemaIsJsonAndKnowsEveryKeyOfThePaperStudy) {
   const Finished done = call("schema study");
   ASSERT_EQ(done.code, 0);

@@ -46,6 +46,7 @@ ordered_json list_effects() {
                     {"states", row.states},
                     {"repeats", row.repeats},
                     {"passive", row.passive},
+                    {"active_because", row.active_because},
                     {"rate_independent", row.rate_independent},
                     {"parameters", parameters}});
   }
