@@ -1,0 +1,92 @@
+#include "torque_driven/collocation_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/SparseLU>
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr std::size_t kMostParts = 32;
+constexpr std::size_t kReach = 3;  // intervals before an error that may have brought it
+
+}  // namespace
+
+CollocationMesh::CollocationMesh(const DrivenProblem& problem) : problem_(problem) {
+  for (const auto& one : problem.series) parts_.emplace_back(one.intervals(), 1);
+  build();
+}
+
+void CollocationMesh::build() {
+  meshes_.clear();
+  for (std::size_t s = 0; s < parts_.size(); ++s) {
+    meshes_.push_back(driven_mesh(problem_.series[s], parts_[s]));
+  }
+}
+
+std::vector<double> CollocationMesh::packed(std::span<const double> p, const Series& states) const {
+  std::vector<double> x(p.begin(), p.end());
+  for (std::size_t s = 0; s < parts_.size(); ++s) {
+    double before = problem_.series[s].initial;
+    for (std::size_t n = 0; n < states[s].size(); ++n) {
+      for (std::size_t k = 1; k <= parts_[s][n]; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(parts_[s][n]);
+        x.push_back(before + share * (states[s][n] - before));
+      }
+      before = states[s][n];
+    }
+  }
+  return x;
+}
+
+std::vector<double> CollocationMesh::foreseen(std::span<const double> p,
+                                              const Series& states) const {
+  const DrivenNlp nlp(problem_, meshes_);
+  std::vector<double> x = packed(p, states);
+  const auto rows = static_cast<Eigen::Index>(nlp.constraints());
+  Eigen::VectorXd defect(rows);
+  nlp.constraint(x, {defect.data(), nlp.constraints()});
+  const SparsePattern pattern = nlp.jacobian_pattern();
+  std::vector<double> values(pattern.size());
+  nlp.jacobian(x, values);
+  std::vector<Eigen::Triplet<double>> of_motions;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const int column = pattern.column[k] - static_cast<int>(p.size());
+    if (column >= 0) of_motions.emplace_back(pattern.row[k], column, values[k]);
+  }
+  Eigen::SparseMatrix<double> matrix(rows, rows);
+  matrix.setFromTriplets(of_motions.begin(), of_motions.end());
+  const Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::NaturalOrdering<int>> factor(matrix);
+  if (factor.info() != Eigen::Success) return x;
+  const Eigen::VectorXd change = factor.solve(-defect);
+  for (Eigen::Index k = 0; k < rows; ++k) x[p.size() + static_cast<std::size_t>(k)] += change[k];
+  return x;
+}
+
+Refinement CollocationMesh::divide(std::span<const double> x, const Series& states,
+                                   double tolerance) {
+  Refinement found;
+  std::size_t at = problem_.size();
+  for (std::size_t s = 0; s < meshes_.size(); ++s) {
+    const auto old = parts_[s];
+    for (std::size_t n = 0; n < states[s].size(); ++n) {
+      const double motion = x[at + meshes_[s].sample[n + 1] - 1];
+      const double error = problem_.series[s].weight[n + 1] * std::abs(motion - states[s][n]);
+      found.error = std::max(found.error, error);
+      if (error <= tolerance) continue;
+      const double factor =
+          std::min(std::ceil(std::pow(error / tolerance, 0.25)), 1.0 * kMostParts);
+      for (std::size_t k = n - std::min(n, kReach); k <= n; ++k) {
+        const std::size_t wanted = static_cast<std::size_t>(factor) * old[k];
+        parts_[s][k] = std::max(parts_[s][k], std::min(kMostParts, wanted));
+      }
+    }
+    found.changed = found.changed || parts_[s] != old;
+    at += meshes_[s].points() - 1;
+  }
+  if (found.changed) build();
+  return found;
+}
+
+}  // namespace flexspline::estimators
