@@ -8,6 +8,7 @@
 #include "torsion/trajectory_fit.hpp"
 #include "uncertainty/bands.hpp"
 #include "uncertainty/estimate_parts.hpp"
+#include "uncertainty/torsion_intervals.hpp"
 
 namespace flexspline::estimators {
 
@@ -82,6 +83,21 @@ std::string misfit_note(const Leftover& left) {
       left.residual / left.noise);
 }
 
+UncertaintySettings uncertainty_of(const FitProblem& problem, const MethodRow& method) {
+  return {.kind = *find_uncertainty(word(problem, method, "uncertainty")),
+          .replicates = static_cast<std::size_t>(number(problem, method, "replicates")),
+          .seed = static_cast<std::uint64_t>(number(problem, method, "seed"))};
+}
+
+void take(const Intervals& found, Estimate& estimate) {
+  for (std::size_t k = 0; k < found.lower.size(); ++k) {
+    estimate.parameters[k].ci95_lower = found.lower[k];
+    estimate.parameters[k].ci95_upper = found.upper[k];
+    if (!found.std.empty()) estimate.parameters[k].std = found.std[k];
+  }
+  estimate.notes.insert(estimate.notes.end(), found.notes.begin(), found.notes.end());
+}
+
 Result<Estimate> fit(const FitProblem& problem) {
   const auto started = std::chrono::steady_clock::now();
   const MethodRow method = describe_trajectory_ceres();
@@ -121,12 +137,18 @@ Result<Estimate> fit(const FitProblem& problem) {
     if (!start) return tl::unexpected(start.error());
     result = fit_torque(with_terms(*start, decision->free), *records, settings);
   }
+  const double tolerance = number(problem, method, "tolerance");
+  const IntegratorSettings integrator{tolerance, tolerance, 200000};
   if (result && direction_of(problem, method, misses) == Direction::torsion) {
-    const double tolerance = number(problem, method, "tolerance");
-    result = fit_torsion(*result, *records, settings, {tolerance, tolerance, 200000});
+    result = fit_torsion(*result, *records, settings, integrator);
   }
   if (!result) return tl::unexpected(result.error());
+  const auto found =
+      torsion_intervals(*result, *records, uncertainty_of(problem, method), settings, integrator);
+  if (!found) return tl::unexpected(found.error());
+  if (found->covariance.size() > 0) result->covariance = found->covariance;
   Estimate estimate = estimate_of(*result, *records, *decision);
+  take(*found, estimate);
   estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return estimate;
@@ -135,42 +157,57 @@ Result<Estimate> fit(const FitProblem& problem) {
 }  // namespace
 
 MethodRow describe_trajectory_ceres() {
-  return {.id = "trajectory_ceres",
-          .summary =
-              "f, g^-1 and h of eq. (3) over whole recordings: CVODES with forward "
-              "sensitivities inside Ceres",
-          .source = "Dhaouadi and Ghorbel (2003), eqs. (3), (4); laws of the catalogue",
-          .options = {{.name = "simulate",
-                       .meaning = "what is simulated and compared: torsion by eq. (3) from the "
-                                  "torque, or torque by eq. (4) from the motion; auto: torsion, "
-                                  "but torque where an angle or a displacement is imposed or "
-                                  "where the model misses more than the noise",
-                       .choices = {"auto", "torsion", "torque"}},
-                      {.name = "h",
-                       .meaning = "auto: fitted where the recordings can tell it; unity: h = 1",
-                       .choices = {"auto", "unity"}},
-                      {.name = "inertia",
-                       .meaning = "an inertia torque that the sensor sees",
-                       .choices = {"auto", "off"}},
-                      {.name = "delay",
-                       .meaning = "a delay of the torque against the angle",
-                       .choices = {"auto", "off"}},
-                      {.name = "tolerance",
-                       .meaning = "relative and absolute tolerance of the integration",
-                       .value = 1e-7,
-                       .lower = 1e-12,
-                       .upper = 1e-3},
-                      {.name = "iterations",
-                       .meaning = "most iterations of the solver",
-                       .value = 60,
-                       .lower = 1,
-                       .upper = 10000},
-                      {.name = "samples",
-                       .meaning = "most residuals of one recording; longer ones are thinned evenly",
-                       .value = 3000,
-                       .lower = 100,
-                       .upper = 1e6}},
-          .fit = fit};
+  return {
+      .id = "trajectory_ceres",
+      .summary =
+          "f, g^-1 and h of eq. (3) over whole recordings: CVODES with forward "
+          "sensitivities inside Ceres",
+      .source = "Dhaouadi and Ghorbel (2003), eqs. (3), (4); laws of the catalogue",
+      .options = {{.name = "simulate",
+                   .meaning = "what is simulated and compared: torsion by eq. (3) from the "
+                              "torque, or torque by eq. (4) from the motion; auto: torsion, "
+                              "but torque where an angle or a displacement is imposed or "
+                              "where the model misses more than the noise",
+                   .choices = {"auto", "torsion", "torque"}},
+                  {.name = "h",
+                   .meaning = "auto: fitted where the recordings can tell it; unity: h = 1",
+                   .choices = {"auto", "unity"}},
+                  {.name = "inertia",
+                   .meaning = "an inertia torque that the sensor sees",
+                   .choices = {"auto", "off"}},
+                  {.name = "delay",
+                   .meaning = "a delay of the torque against the angle",
+                   .choices = {"auto", "off"}},
+                  {.name = "tolerance",
+                   .meaning = "relative and absolute tolerance of the integration",
+                   .value = 1e-7,
+                   .lower = 1e-12,
+                   .upper = 1e-3},
+                  {.name = "iterations",
+                   .meaning = "most iterations of the solver",
+                   .value = 60,
+                   .lower = 1,
+                   .upper = 10000},
+                  {.name = "samples",
+                   .meaning = "most residuals of one recording; longer ones are thinned evenly",
+                   .value = 3000,
+                   .lower = 100,
+                   .upper = 1e6},
+                  {.name = "uncertainty",
+                   .meaning = "where intervals of parameters come from; bands of f, g^-1 and h "
+                              "follow the bootstrap, else the covariance",
+                   .choices = {"covariance", "profile", "bootstrap_parametric", "bootstrap_block"}},
+                  {.name = "replicates",
+                   .meaning = "refits of the bootstrap",
+                   .value = 200,
+                   .lower = 20,
+                   .upper = 100000},
+                  {.name = "seed",
+                   .meaning = "of the bootstrap's random numbers",
+                   .value = 1,
+                   .lower = 0,
+                   .upper = 9e15}},
+      .fit = fit};
 }
 
 }  // namespace flexspline::estimators

@@ -15,7 +15,9 @@ Result<Intervals> by_profile(const FittedProblem& fit, const SolverSettings& sol
   for (std::size_t k = 0; k < fit.p.size(); ++k) {
     const auto one =
         profile_interval(fit.problem, fit.parameters, fit.p, fit.covariance, k,
-                         {.variance = fit.variance, .quantile = fit.quantile, .solver = solver});
+                         {.variance = fit.variances.empty() ? fit.variance : fit.variances[k],
+                          .quantile = fit.quantile,
+                          .solver = solver});
     if (!one) return tl::unexpected(one.error());
     open += one->lower_open || one->upper_open;
     result.lower.push_back(one->lower);

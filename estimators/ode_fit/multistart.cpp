@@ -1,0 +1,109 @@
+#include "flexspline/estimators/multistart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+#include <boost/math/distributions/binomial.hpp>
+
+namespace flexspline::estimators {
+namespace {
+
+double drawn(const OdeParameter& parameter, double spread, std::mt19937_64& engine) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const double u = uniform(engine);
+  const double value =
+      parameter.start == 0.0 ? spread * parameter.scale * u : parameter.start * std::pow(spread, u);
+  return std::clamp(value, parameter.lower, parameter.upper);
+}
+
+// A stream of random numbers a start, so that more starts do not change the first ones.
+OdeFitProblem started(const OdeFitProblem& problem, const MultistartSettings& settings, int start) {
+  OdeFitProblem moved = problem;
+  if (start == 0) return moved;
+  std::seed_seq seeds{static_cast<std::uint32_t>(settings.seed),
+                      static_cast<std::uint32_t>(settings.seed >> 32),
+                      static_cast<std::uint32_t>(start)};
+  std::mt19937_64 engine(seeds);
+  for (auto& parameter : moved.parameters) {
+    parameter.start = drawn(parameter, settings.spread, engine);
+  }
+  for (auto& experiment : moved.experiments) {
+    for (auto& initial : experiment.initial) {
+      auto* parameter = std::get_if<OdeParameter>(&initial);
+      if (parameter != nullptr) parameter->start = drawn(*parameter, settings.spread, engine);
+    }
+  }
+  return moved;
+}
+
+void count(const MultistartSettings& settings, const std::vector<OdeFit>& fits,
+           Multistart& result) {
+  const double most = result.best.cost * (1.0 + settings.same_cost);
+  for (const auto& fit : fits) {
+    result.costs.push_back(fit.cost);
+    if (fit.termination != Termination::converged) continue;
+    ++result.converged;
+    result.at_best += fit.cost <= most;
+  }
+  using Binomial = boost::math::binomial_distribution<>;
+  const double n = result.starts;
+  const double k = result.at_best;
+  result.rate = k / n;
+  result.rate_lower = Binomial::find_lower_bound_on_p(n, k, 0.025);
+  result.rate_upper = Binomial::find_upper_bound_on_p(n, k, 0.025);
+  result.says = fmt::format(
+      "{} of {} starts end at the best cost found, {} converge elsewhere, {} fail: from such "
+      "starts "
+      "{:.0f} % come home (95 %: {:.0f} to {:.0f} %)",
+      result.at_best, result.starts, result.converged - result.at_best,
+      result.starts - result.converged, 100.0 * result.rate, 100.0 * result.rate_lower,
+      100.0 * result.rate_upper);
+}
+
+// The best of those that converged, if any did.
+const OdeFit& best_of(const std::vector<OdeFit>& fits) {
+  const auto order = [](const OdeFit& fit) {
+    return std::pair(fit.termination != Termination::converged, fit.cost);
+  };
+  return *std::ranges::min_element(fits, {}, order);
+}
+
+}  // namespace
+
+Result<Multistart> fit_ode_from_many(const OdeFitProblem& problem, OdeFitMethod method,
+                                     const OdeFitSettings& settings,
+                                     const MultistartSettings& multistart) {
+  if (multistart.starts < 2 || !(multistart.spread > 1.0)) {
+    return failure(
+        ErrorCode::usage,
+        fmt::format("{} starts with a spread of {}", multistart.starts, multistart.spread),
+        "give at least 2 starts and a spread above 1");
+  }
+  std::vector<OdeFit> fits;
+  std::optional<Error> last;
+  for (int start = 0; start < multistart.starts; ++start) {
+    OdeFitSettings own = settings;
+    if (start > 0) own.equation_error_start = false;
+    auto fit = fit_ode(started(problem, multistart, start), method, own);
+    if (fit) {
+      fits.push_back(std::move(*fit));
+    } else {
+      last = fit.error();
+      if (last->code != ErrorCode::numerics) return tl::unexpected(*last);
+    }
+  }
+  if (fits.empty()) return tl::unexpected(in_context(*last, "every start"));
+  Multistart result{.best = best_of(fits), .starts = multistart.starts};
+  result.failed = multistart.starts - static_cast<int>(fits.size());
+  count(multistart, fits, result);
+  result.best.notes.push_back(result.says);
+  if (result.at_best < 2 && result.best.termination == Termination::converged) {
+    result.best.termination = Termination::no_progress;
+    result.best.notes.push_back("no two starts agree on the minimum, so it is not taken for one");
+  }
+  return result;
+}
+
+}  // namespace flexspline::estimators
