@@ -29,6 +29,25 @@ void read_sizes(TomlSection& section, ConcealDraw& draw) {
                  fmt::format("write [smallest, largest] between 0 and {}", kLargestSize));
 }
 
+/// True where the rig has what is drawn at once.
+bool check_rig(TomlSection& section, const ConcealDraw& draw, Rig rig) {
+  const std::vector<std::string> ids = drawable(draw, rig);
+  const auto alone = [&](const std::string& id) { return partners(ids, id, rig).empty(); };
+  if (ids.empty() && draw.one + draw.two > 0.0) {
+    section.refuse("effects",
+                   fmt::format("rig '{}' can conceal none of these effects", name_of(rig)),
+                   "name others, or leave the key out for all");
+    return false;
+  }
+  if (draw.two > 0.0 && std::ranges::any_of(ids, alone)) {
+    section.refuse("effects",
+                   fmt::format("rig '{}' has no two of these effects that differ", name_of(rig)),
+                   "name more, or set two = 0");
+    return false;
+  }
+  return true;
+}
+
 void check_effects(TomlSection& section, const ConcealDraw& draw, const std::vector<Rig>& rigs) {
   std::vector<std::string_view> known;
   for (const data::HiddenRow& row : data::hidden_effects()) {
@@ -41,14 +60,7 @@ void check_effects(TomlSection& section, const ConcealDraw& draw, const std::vec
     return;
   }
   for (const Rig rig : rigs) {
-    const std::size_t count = drawable(draw, rig).size();
-    const std::size_t needed = draw.two > 0.0 ? 2 : draw.one > 0.0 ? 1 : 0;
-    if (count >= needed) continue;
-    section.refuse(
-        "effects",
-        fmt::format("rig '{}' can conceal {} of these effects, where {} are drawn at once",
-                    name_of(rig), count, needed),
-        "name more effects, or none for all");
+    if (!check_rig(section, draw, rig)) return;
   }
 }
 

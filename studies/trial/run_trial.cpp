@@ -161,8 +161,8 @@ Result<ordered_json> TrialRun::compute(const TrialCase& one) {
   const auto open =
       data::write_artefact(folder() / "commitments" / (one.key + ".json"), artefact["commitment"]);
   if (!open) return tl::unexpected(open.error());
-  if (settings_.keep_recordings) {
-    const auto kept = data::write_dataset(folder() / "recordings" / one.key, concealed->recordings);
+  if (!settings_.recordings.empty()) {
+    const auto kept = data::write_dataset(settings_.recordings / one.key, concealed->recordings);
     if (!kept) return tl::unexpected(kept.error());
   }
   artefact["sealed"] = data::sealed(answer, *salt);

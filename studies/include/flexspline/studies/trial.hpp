@@ -128,8 +128,8 @@ using Diagnose =
 /// Where and how a trial runs.
 struct TrialSettings {
   RunSettings run;
-  bool keep_recordings = false;  ///< writes every data set into DIR/recordings/<key>
-  std::string salt;              ///< for tests: salts are derived from it; empty: fresh ones
+  std::filesystem::path recordings;  ///< keeps every data set as recordings/<key>; empty: none
+  std::string salt;                  ///< for tests: salts are derived from it; empty: fresh ones
 };
 
 /// What a trial did, with every case that is there.

@@ -1,0 +1,74 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "flexspline/data/commitment.hpp"
+#include "flexspline/studies/conceal.hpp"
+
+namespace flexspline::app {
+namespace {
+
+/// A salt that can be guessed seals nothing; short ones are a slip.
+Result<std::string> salt_of(const Arguments& arguments) {
+  constexpr std::size_t kShortest = 8;
+  if (!arguments.has("salt")) return data::fresh_salt();
+  const std::string salt = arguments.text("salt");
+  if (salt.size() >= kShortest) return salt;
+  return failure(ErrorCode::usage, fmt::format("--salt '{}' is too short", salt),
+                 fmt::format("give at least {} letters, or leave it out", kShortest));
+}
+
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
+  const auto salt = salt_of(arguments);
+  if (!salt) return tl::unexpected(salt.error());
+  const auto plan = studies::load_conceal_plan(arguments.text("bench"));
+  if (!plan) return tl::unexpected(plan.error());
+  auto concealed = studies::conceal(*plan);
+  if (!concealed) return tl::unexpected(concealed.error());
+  const std::size_t recordings = concealed->recordings.recordings.size();
+  const std::filesystem::path folder = arguments.text("out");
+  const auto written = studies::write_concealed(folder, *std::move(concealed), *salt);
+  if (!written) return tl::unexpected(written.error());
+  const std::string dataset = (folder / "dataset").string();
+  const std::string commitment = (folder / "commitment.json").string();
+  const std::string answer = (folder / "answer.sealed.json").string();
+  if (console.json) {
+    console.result(nlohmann::ordered_json{
+        {"dataset", dataset},
+        {"commitment", commitment},
+        {"answer", answer},
+        {"recordings",
+         recordings}}.dump(2));
+  } else {
+    console.say(fmt::format("{} recordings; the answer is in {}, committed to in {}", recordings,
+                            answer, commitment));
+    console.result(dataset);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+CommandRow describe_conceal() {
+  return {
+      .id = "conceal",
+      .summary = "Makes recordings on the virtual bench with a hidden effect, the answer sealed",
+      .arguments = {{.name = "bench",
+                     .meaning = "bench description",
+                     .value = "BENCH.toml",
+                     .required = true},
+                    {.name = "--out",
+                     .meaning = "folder for data set, commitment and sealed answer",
+                     .value = "DIR",
+                     .required = true},
+                    {.name = "--salt",
+                     .meaning = "of the commitment, for tests; default: from the system's "
+                                "randomness",
+                     .value = "TEXT"}},
+      .example = "flexspline conceal bench.toml --out out/hidden",
+      .run = run};
+}
+
+}  // namespace flexspline::app
