@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bench/hidden_draw.hpp"
 #include "bench/hidden_gear.hpp"
+#include "bench/hidden_motion.hpp"
+#include "bench/hidden_run.hpp"
 
 namespace flexspline::data {
 namespace {
@@ -69,7 +72,10 @@ std::vector<HiddenExcitation> pendulum_design(std::uint64_t seed) {
   return design;
 }
 
-HiddenNuisances draw_nuisances(Rig rig, std::uint64_t seed) {
+// Below what matters: a tenth of the noise, in torque. Enough to be wrong for who counts on zero.
+constexpr double kImmaterial = 0.1;
+
+HiddenNuisances draw_nuisances(Rig rig, std::uint64_t seed, const HiddenGear& gear) {
   HiddenNuisances n;
   n.torque_noise = drawn(seed, "noise", 0, 0.003, 0.006);
   n.coloured_share = drawn(seed, "noise", 1, 0.05, 0.3);
@@ -77,7 +83,39 @@ HiddenNuisances draw_nuisances(Rig rig, std::uint64_t seed) {
   n.motor_encoder_step = rig == Rig::specimen ? kTurn / 0x1p22 : kTurn / 1e5;
   n.load_encoder_step = kTurn / 0x1p22;
   n.time_jitter = drawn(seed, "noise", 3, 0.0, 0.02);
+  n.torque_offset = kImmaterial * drawn(seed, "noise", 4, -1.0, 1.0);
+  n.angle_zero =
+      kImmaterial * n.torque_noise * gear.rated_torsion * drawn(seed, "noise", 5, -1.0, 1.0);
   return n;
+}
+
+// Largest torque that the load of a recording asks for.
+double peak_of(const HiddenBench& bench, const HiddenSession& session) {
+  const HeldMotion held(session.excitation, bench.seed, session.id);
+  double peak = 0.0;
+  for (int k = 0; k <= 4000; ++k) {
+    const Jet x = held.at(held.duration() * k / 4000.0);
+    peak = std::max(peak,
+                    std::abs(bench.gear.load_inertia * x.second + bench.gear.load_drag * x.first));
+  }
+  return peak;
+}
+
+// Slows what asks for more than the gear is rated for. The phases of a multisine hang on its id,
+// which tells the frequency, so that slowing one may take several turns.
+void keep_rated(HiddenBench& bench) {
+  constexpr double kMost = 1.05;
+  for (int turn = 0; turn < 20; ++turn) {
+    const auto sessions = plan_sessions(bench);
+    bool kept = true;
+    for (std::size_t k = 0; k < sessions.size(); ++k) {
+      const double share = peak_of(bench, sessions[k]) / bench.gear.rated_torque;
+      if (share <= kMost) continue;
+      bench.design[k].frequency_hz *= std::sqrt(1.0 / share);
+      kept = false;
+    }
+    if (kept) break;
+  }
 }
 
 }  // namespace
@@ -97,7 +135,8 @@ HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed) {
   bench.gear =
       draw_gear(rig, seed, torque, torsion, torsion * kTurn * drawn(seed, "rated", 2, 0.1, 0.3));
   bench.design = draw_design(rig, seed, bench.gear);
-  bench.nuisances = draw_nuisances(rig, seed);
+  bench.nuisances = draw_nuisances(rig, seed, bench.gear);
+  if (rig == Rig::free) keep_rated(bench);
   return bench;
 }
 

@@ -68,7 +68,7 @@ void draw_motor(HiddenGear& gear, std::uint64_t seed, double motor_speed) {
   gear.motor_inertia = about(0, 7.26e-4);
   gear.motor_drag = about(1, 6e-4);
   gear.motor_coulomb = about(2, 0.05);
-  gear.motor_coulomb_speed = 0.08 * motor_speed;
+  gear.motor_coulomb_speed = about(3, 0.08 * motor_speed);
 }
 
 }  // namespace

@@ -93,6 +93,7 @@ Recording noisy_recording(const HiddenBench& bench, Recording ideal, double torq
         break;
       case Quantity::transmitted_torque:
         add_noise(values, torque_noise, bench, ideal.id, torque_stream);
+        for (double& value : values) value += n.torque_offset * torque_noise;
         break;
       case Quantity::motor_torque:
         add_noise(values, motor_torque_noise, bench, ideal.id, motor_torque_stream);

@@ -44,7 +44,8 @@ std::optional<Error> refusal(const HiddenNuisances& n) {
                         {"motor_encoder_step (rad)", n.motor_encoder_step, 0.0, 1.0},
                         {"load_encoder_step (rad)", n.load_encoder_step, 0.0, 1.0},
                         {"time_jitter", n.time_jitter, 0.0, 0.2},
-                        {"angle_zero (rad)", n.angle_zero, -1.0, 1.0}});
+                        {"angle_zero (rad)", n.angle_zero, -1.0, 1.0},
+                        {"torque_offset", n.torque_offset, -1e3, 1e3}});
 }
 
 }  // namespace

@@ -61,14 +61,26 @@ void run_shafts(HiddenSignals& s, const HiddenBench& bench, const HeldMotion& he
   }
 }
 
-/// J1 th1'' + B1 th1' + friction + tau/N.
+/// What the torque returns to the motor as the kinematics turn with it, by virtual work: de/dth1
+/// per Nm.
+double kinematic_slope(const Laws& laws, double angle) {
+  constexpr double kStep = 1e-4;
+  double change = 0.0;
+  for (const HiddenLaw& law : laws) {
+    if (law.kinematic) change += law.kinematic(angle + kStep) - law.kinematic(angle - kStep);
+  }
+  return change / (2.0 * kStep);
+}
+
+/// J1 th1'' + B1 th1' + friction + tau (1/N + de/dth1).
 void run_motor(HiddenSignals& s, const HiddenGear& gear, const Laws& laws) {
   const std::vector<double> speed = slopes(s.motor_angle, s.step);
   const std::vector<double> bend = bends(s.motor_angle, s.step);
   for (std::size_t k = 0; k < s.size(); ++k) {
-    const double drive = gear.motor_inertia * bend[k] + gear.motor_drag * speed[k] +
-                         gear.motor_coulomb * soft_sign(speed[k], gear.motor_coulomb_speed) +
-                         s.torque[k] / gear.gear_ratio;
+    const double drive =
+        gear.motor_inertia * bend[k] + gear.motor_drag * speed[k] +
+        gear.motor_coulomb * soft_sign(speed[k], gear.motor_coulomb_speed) +
+        s.torque[k] * (1.0 / gear.gear_ratio + kinematic_slope(laws, s.motor_angle[k]));
     s.motor_torque[k] = drive;
     for (const HiddenLaw& law : laws) {
       if (!law.motor) continue;

@@ -107,6 +107,58 @@ TEST(HiddenEncoders, CountAndAreOffByTheirZero) {
   }
 }
 
+TEST(HiddenSensor, IsOffByItsOffset) {
+  HiddenBench bench = small_bench(Rig::free);
+  bench.nuisances = {.torque_noise = 0.005, .torque_offset = 0.1};
+  const auto off = run_hidden_bench(bench, {}).value();
+  bench.nuisances.torque_offset = 0.0;
+  const auto right = run_hidden_bench(bench, {}).value();
+  const auto& a = off.measured.recordings[0].channels;
+  const auto& b = right.measured.recordings[0].channels;
+  for (std::size_t k = 0; k < a.at(Quantity::transmitted_torque).size(); ++k) {
+    ASSERT_NEAR(a.at(Quantity::transmitted_torque)[k] - b.at(Quantity::transmitted_torque)[k],
+                0.1 * off.answer.noise_std, 1e-12);
+  }
+  EXPECT_EQ(a.at(Quantity::motor_torque), b.at(Quantity::motor_torque));
+}
+
+// What the kinematics return to the motor: at the same motion and load the motor's torque differs
+// by tau de/dth1 and by what its own motion takes.
+TEST(HiddenKinematics, ReturnTheirWorkToTheMotor) {
+  const HiddenBench bench = small_bench(Rig::free);
+  const auto with = run_hidden_bench(bench, {{"kinematic_error", 0.2}}).value();
+  const Recording& r = with.ideal.recordings[0];
+  const double error = with.answer.effects[0].parameters[0].value;
+  const auto& torque = r.channels.at(Quantity::transmitted_torque);
+  double most = 0.0;
+  for (const double tau : torque) most = std::max(most, std::abs(tau));
+  const double left = largest(balance(bench, HiddenEquation::motor, r));
+  // Amplitudes 1, 0.3, 0.25 of the orders 2, 4, 1: slopes up to 3.45 of the first.
+  EXPECT_GT(left, 0.5 * error * most);
+  EXPECT_LT(left, 4.0 * error * most);
+}
+
+TEST(HiddenDraw, AsksOfAGearWhatItIsRatedFor) {
+  double least = 10.0;
+  double most = 0.0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const HiddenBench bench = draw_hidden_bench(Rig::free, seed);
+    const auto made = run_hidden_bench(bench, {});
+    ASSERT_TRUE(made) << made.error().message();
+    const double share = made->answer.peak_torque / bench.gear.rated_torque;
+    least = std::min(least, share);
+    most = std::max(most, share);
+    EXPECT_LE(std::abs(bench.nuisances.torque_offset), 0.1);
+    EXPECT_LE(std::abs(bench.nuisances.angle_zero),
+              0.1 * bench.nuisances.torque_noise * bench.gear.rated_torsion);
+    EXPECT_NE(bench.nuisances.torque_offset, 0.0);
+    EXPECT_NE(bench.nuisances.angle_zero, 0.0);
+  }
+  std::printf("drawn free benches peak at %.2f to %.2f of the rated torque\n", least, most);
+  EXPECT_GT(least, 0.8);
+  EXPECT_LE(most, 1.06);
+}
+
 TEST(HiddenDraw, StaysInItsRanges) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     for (const Rig rig : kRigs) {

@@ -54,6 +54,7 @@ struct HiddenNuisances {
   double load_encoder_step = 0.0;   ///< rad at the load
   double time_jitter = 0.0;         ///< rms share of the interval; stamps tell the true instants
   double angle_zero = 0.0;          ///< rad at the output: the torsion's zero is off by this
+  double torque_offset = 0.0;       ///< of the transmitted torque's sensor, over its noise's rms
 };
 
 /// A whole bench, drawn or put together by hand.
@@ -135,7 +136,9 @@ std::string_view name_of(HiddenEquation equation);
 std::string_view name_of(HiddenMotion motion);
 
 /// A bench drawn from a seed: families and parameters of the gear (+-20 % and more), a design of
-/// eight to eleven recordings in two decades of rate, noise of 0.3 to 0.6 %, encoders, jitter.
+/// eight to eleven recordings in two decades of rate, noise of 0.3 to 0.6 %, encoders, jitter; the
+/// sensor's offset and what the angle's zero is worth in torque within +-0.1 of the noise's rms. On
+/// free the load asks for 1.05 times the rated torque at most.
 HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed);
 
 /// Runs the bench with the effects and without any, deterministic by the bench's seed: neither the
