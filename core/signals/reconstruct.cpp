@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/signals.hpp"
+#include "signals/reconstruct_with.hpp"
 #include "signals/smoothing.hpp"
 
 namespace flexspline {
@@ -83,6 +84,11 @@ SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples
 }  // namespace
 
 Result<Reconstruction> reconstruct(const TorsionRecord& record) {
+  return reconstruct_with(record, find_steady_part(record));
+}
+
+Result<Reconstruction> reconstruct_with(const TorsionRecord& record,
+                                        const std::optional<SteadyPart>& steady) {
   if (record.time.size() < 16) {
     return failure(ErrorCode::numerics,
                    fmt::format("recording {} has {} samples", record.id, record.time.size()),
@@ -94,7 +100,7 @@ Result<Reconstruction> reconstruct(const TorsionRecord& record) {
                    "leave it out, or check the channel of its motion");
   }
   Reconstruction result;
-  result.steady = find_steady_part(record);
+  result.steady = steady;
   // A motion is differentiated and has few harmonics; an effort has kinks, which must not be
   // rounded.
   auto motion = smooth(record, record.motion, result.steady, Harmonics::significant);

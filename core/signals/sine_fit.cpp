@@ -12,6 +12,7 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr std::size_t kScanSamples = 2000;
 constexpr int kScanFrequencies = 600;
+constexpr double kSettled = 1e-12;  // change of the number of cycles that ends the search
 
 struct Sums {
   SineFit fit;
@@ -34,9 +35,9 @@ Sums refine(std::span<const double> time, std::span<const double> signal, double
   for (int k = 0; k <= iterations; ++k) {
     const bool linear = k == 0;  // amplitude first: the frequency has no slope without one
     const Eigen::Index columns = linear ? 3 : 4;
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(columns);
-    Eigen::VectorXd row(columns);
+    Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d projections = Eigen::Vector4d::Zero();
+    Eigen::Vector4d row = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < time.size(); ++i) {
       const double angle = kTwoPi * p[3] * (time[i] - t0);
       const double c = std::cos(angle);
@@ -46,12 +47,14 @@ Sums refine(std::span<const double> time, std::span<const double> signal, double
       row[2] = s;
       if (!linear) row[3] = kTwoPi * (time[i] - t0) * (p[2] * c - p[1] * s);
       const double r = signal[i] - (p[0] + p[1] * c + p[2] * s);
-      normal += row * row.transpose();
-      gradient += row * r;
+      products += row * row.transpose();
+      projections += row * r;
     }
-    Eigen::VectorXd step = normal.ldlt().solve(gradient);
+    const Eigen::MatrixXd normal = products.topLeftCorner(columns, columns);
+    Eigen::VectorXd step = normal.ldlt().solve(projections.head(columns));
     if (!linear) step[3] = std::clamp(step[3], -0.25 / span, 0.25 / span);
     p.head(columns) += step;
+    if (!linear && std::abs(step[3]) * span < kSettled) break;
   }
   for (std::size_t i = 0; i < time.size(); ++i) {
     const double angle = kTwoPi * p[3] * (time[i] - t0);

@@ -5,6 +5,7 @@
 
 #include "flexspline/core/signals.hpp"
 #include "flexspline/core/spline.hpp"
+#include "signals/reconstruct_with.hpp"
 
 namespace flexspline {
 namespace {
@@ -151,7 +152,7 @@ std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
 std::optional<LoopFigures> loop_figures(const TorsionRecord& record) {
   const auto steady = find_steady_part(record);
   if (!steady) return std::nullopt;
-  const auto smooth = reconstruct(record);
+  const auto smooth = reconstruct_with(record, steady);
   if (!smooth) return std::nullopt;
   const Spline motion(record.time, smooth->motion.position);
   const Spline effort(record.time, smooth->effort);
