@@ -165,6 +165,38 @@ TEST_F(CommandLine, SimulateWritesADataSetThatFits) {
   EXPECT_TRUE(std::filesystem::exists(path("fit/estimate.json")));
 }
 
+TEST_F(CommandLine, ConcealWritesADataSetThatIsValidWithTheAnswerBesideIt) {
+  const std::string bench =
+      "schema = \"flexspline-bench/1\"\nrig = \"locked\"\n"
+      "effects = [{ id = \"backlash\", size_fraction = 0.05 }]\n"
+      "[[excitation]]\nmotion = \"sine\"\namplitude = { value = 0.2, unit = \"deg\" }\n"
+      "frequency = { value = 0.05, unit = \"Hz\" }\nsamples = 200\n";
+  folder_.write("bench.toml", bench);
+  const std::string line = "conceal " + path("bench.toml") + " --salt 0123456789 --out ";
+  const Finished done = call(line + path("one"));
+  ASSERT_EQ(done.code, 0) << done.output;
+  EXPECT_EQ(done.result, path("one/dataset") + "\n");
+  EXPECT_EQ(call("validate " + path("one/dataset")).code, 0);
+  EXPECT_EQ(call("validate " + path("bench.toml")).code, 0);
+  ASSERT_EQ(call(line + path("two")).code, 0);
+  for (const char* file : {"commitment.json", "answer.sealed.json", "dataset/dataset.toml"}) {
+    EXPECT_EQ(read_text(path("one") + "/" + file), read_text(path("two") + "/" + file)) << file;
+  }
+  ASSERT_EQ(call("conceal " + path("bench.toml") + " --out " + path("three")).code, 0);
+  EXPECT_NE(read_text(path("one/commitment.json")), read_text(path("three/commitment.json")))
+      << "a salt of its own";
+}
+
+TEST_F(CommandLine, ConcealRefusesABadBenchAndWritesNothing) {
+  folder_.write("bench.toml", "schema = \"flexspline-bench/1\"\nrig = \"lockd\"\neffects = []\n");
+  const Finished done = call("conceal " + path("bench.toml") + " --out " + path("out"));
+  EXPECT_EQ(done.code, 65);
+  EXPECT_THAT(done.output, HasSubstr("bench.toml:2:7"));
+  EXPECT_EQ(call("validate " + path("bench.toml")).code, 65);
+  EXPECT_EQ(call("conceal " + path("bench.toml") + " --salt x --out " + path("out")).code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
 TEST_F(CommandLine, SimulateRefusesAnAmplitudeInTheWrongUnit) {
   folder_.write("model.toml",
                 read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));

@@ -7,7 +7,9 @@
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
+#include "flexspline/studies/conceal.hpp"
 #include "flexspline/studies/plan.hpp"
+#include "flexspline/studies/trial.hpp"
 #include "version.hpp"
 
 namespace flexspline::app {
@@ -47,6 +49,14 @@ Result<Verdict> check_study(const std::filesystem::path& file, const std::string
   return verdict;
 }
 
+/// A file of which nothing but the text has to be checked.
+template <auto Read>
+Result<Verdict> check_plain(std::string what, const std::filesystem::path& file) {
+  const auto reading = Read(file);
+  if (!reading) return tl::unexpected(reading.error());
+  return Verdict{std::move(what), messages(reading->errors), {}};
+}
+
 Result<Verdict> check(const std::filesystem::path& path, const std::string& data_root) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return check_dataset(path);
@@ -58,6 +68,12 @@ Result<Verdict> check(const std::filesystem::path& path, const std::string& data
     const auto model = data::parse_model(*content, path.string());
     return Verdict{
         "model", model ? std::vector<std::string>{} : std::vector{model.error().message()}, {}};
+  }
+  if (content->find("flexspline-bench/") != std::string::npos) {
+    return check_plain<&studies::read_conceal_plan>("bench", path);
+  }
+  if (content->find("flexspline-trial/") != std::string::npos) {
+    return check_plain<&studies::read_trial>("trial", path);
   }
   return check_study(path, data_root);
 }
@@ -87,9 +103,11 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_validate() {
   return {.id = "validate",
-          .summary = "Checks a study, model or data set and says everything that is wrong at once",
+          .summary =
+              "Checks a study, trial, bench, model or data set and says everything that is wrong "
+              "at once",
           .arguments = {{.name = "path",
-                         .meaning = "study or model file, or folder of a data set",
+                         .meaning = "study, trial, bench or model file, or folder of a data set",
                          .value = "FILE|DATASET",
                          .required = true},
                         {.name = "--data-root",

@@ -19,7 +19,8 @@ inline constexpr std::string_view kSealedSchema = "flexspline-answer/1";
 Result<std::string> fresh_salt();
 
 /// What is shown of an answer before it is asked for: the SHA-256 of the salt, a line feed and the
-/// answer's canonical JSON (no white space, keys in their order), and what it is a commitment to.
+/// answer's canonical JSON (no white space, keys in their order: as it stands in the sealed file),
+/// and what it is a commitment to.
 nlohmann::ordered_json commitment_to(const nlohmann::ordered_json& answer, std::string_view salt,
                                      std::string_view what);
 
