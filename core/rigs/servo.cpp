@@ -135,6 +135,12 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   }
   auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
   if (!model) return tl::unexpected(model.error());
+  if (model->has(Site::kinematics)) {
+    return failure(ErrorCode::bad_data,
+                   "the servo's transmission is rigid: an effect of the kinematics has no torsion "
+                   "to add to",
+                   "simulate the free rig, or take the effect out of the model");
+  }
   const auto* feed =
       std::ranges::find(kFeeds, (*form)->id, &std::pair<std::string_view, Feed>::first);
   return std::make_unique<RigSystemOf<ServoDrive>>(
@@ -149,25 +155,27 @@ RigRow describe_servo() {
   auto winding = states;
   winding.push_back({"current", "A", "in the winding"});
   const std::vector<Quantity> bridge = {Quantity::duty_cycle, Quantity::supply_voltage};
-  return {.id = "servo",
-          .rig = Rig::servo,
-          .says = "one encoder, a pendulum or inertial load, no torque sensor; no torsion view",
-          .equations =
-              "(N^2 J1 + J2) theta'' + (N^2 B1 + B2) theta' + N tau_f + m g l sin(theta) = "
-              "N tau_m, (5) and (6) with phi = 0; tau_m = kt i, "
-              "L i' = V - R i - ke omega_m, V = duty supply",
-          .not_modelled = "torsion, sag of the supply beyond what supply_voltage records",
-          .forms = {{"torque_driven", "by motor_torque", states, {Quantity::motor_torque}},
-                    {"current_driven", "tau_m = kt i", states, {Quantity::current}},
-                    {"voltage_driven", "tau_m = kt (V - ke omega)/R", states, bridge},
-                    {"winding", "with the inductance of the winding", winding, bridge}},
-          .constants =
-              constants_named({"motor_inertia", "motor_viscous", "motor_coulomb", "coulomb_width",
-                               "load_inertia", "load_viscous", "load_mass", "arm_length",
-                               "torque_constant", "resistance", "inductance", "back_emf"}),
-          .outputs = {Quantity::load_angle, Quantity::velocity, Quantity::motor_torque},
-          .residuals = {"drive"},
-          .make = make};
+  return {
+      .id = "servo",
+      .rig = Rig::servo,
+      .says = "one encoder, a pendulum or inertial load, no torque sensor; no torsion view",
+      .equations =
+          "(N^2 J1 + J2) theta'' + (N^2 B1 + B2) theta' + N tau_f + m g l sin(theta) = "
+          "N tau_m, (5) and (6) with phi = 0; tau_m = kt i, "
+          "L i' = V - R i - ke omega_m, V = duty supply",
+      .not_modelled =
+          "torsion, and kinematics with it; sag of the supply beyond what supply_voltage records",
+      .forms = {{"torque_driven", "by motor_torque", states, {Quantity::motor_torque}},
+                {"current_driven", "tau_m = kt i", states, {Quantity::current}},
+                {"voltage_driven", "tau_m = kt (V - ke omega)/R", states, bridge},
+                {"winding", "with the inductance of the winding", winding, bridge}},
+      .constants =
+          constants_named({"motor_inertia", "motor_viscous", "motor_coulomb", "coulomb_width",
+                           "load_inertia", "load_viscous", "load_mass", "arm_length",
+                           "torque_constant", "resistance", "inductance", "back_emf"}),
+      .outputs = {Quantity::load_angle, Quantity::velocity, Quantity::motor_torque},
+      .residuals = {"drive"},
+      .make = make};
 }
 
 }  // namespace flexspline

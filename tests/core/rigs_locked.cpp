@@ -203,6 +203,38 @@ TEST(LockedRig, HoldsTheReferenceOfThePapersExperiment) {
   }
 }
 
+// The lag of the current lies between what the loop commands and what drives: commanded openly, the
+// same torque makes the same motion.
+TEST(LockedRig, LagsBehindItsPositionLoop) {
+  DriveSpec drive = example_drive();
+  drive.torsion.effects = {{"current_lag", {{"time_constant", 2e-3}}}};
+  const auto held = made_rig(Rig::locked, drive,
+                             {{{Quantity::commanded_angle, sine(0.17, 1.0)}}, {}}, "position_loop");
+  const auto times = instants(1.0, 20000);
+  const auto y = simulated(*held, held->parameter_vector(), times, held->rest(), 1e-10, 1e-12);
+  const auto path = instants_along(*held, held->parameter_vector(), times, y);
+  std::vector<double> commanded;
+  for (const auto& x : path) commanded.push_back(x.motor_torque);
+  const RigInputs torque{{{Quantity::motor_torque, sampled_signal(times, commanded)}}, {}};
+  const auto open = made_rig(Rig::locked, drive, torque);
+  const auto z = simulated(*open, open->parameter_vector(), times, open->rest(), 1e-10, 1e-12);
+  drive.torsion.effects.clear();
+  const auto quick = made_rig(Rig::locked, drive, torque);
+  const auto w = simulated(*quick, quick->parameter_vector(), times, quick->rest(), 1e-10, 1e-12);
+  double worst = 0.0;
+  double lag = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    worst = std::max(worst, std::abs(y[4 * i] - z[3 * i]));
+    lag = std::max(lag, std::abs(w[2 * i] - z[3 * i]));
+    most = std::max(most, std::abs(y[4 * i]));
+  }
+  std::printf("lag in the loop and commanded openly: %.2e of the motion, without it %.2e\n",
+              worst / most, lag / most);
+  EXPECT_LT(worst, 1e-5 * most);
+  EXPECT_GT(lag, 1e-3 * most);
+}
+
 // Eq. (11) at one state, by hand.
 TEST(LockedRig, ObeysItsEquation) {
   const DriveSpec drive = example_drive();

@@ -117,5 +117,14 @@ TEST(Servo, SolvesForTheTorqueThatItsFrictionDependsOn) {
   EXPECT_NEAR(20.0 * (0.4 - drive.motor_inertia * x.motor_acceleration - lost), tau, 1e-10);
 }
 
+TEST(ServoRig, RefusesKinematicsForWhichItHasNoTorsion) {
+  DriveSpec drive = example_drive();
+  drive.torsion.effects = {{"backlash", {{"half_gap", 1e-4}, {"rounding", 2e-5}}}};
+  const auto rig =
+      make_rig(Rig::servo, drive, {{{Quantity::motor_torque, constant(0.1)}}, {}}, "torque_driven");
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(rig.error().message(), testing::HasSubstr("rigid"));
+}
+
 }  // namespace
 }  // namespace flexspline
