@@ -1,6 +1,6 @@
 #include "trial/trial_json.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include <nlohmann/json.hpp>
 
@@ -40,6 +40,23 @@ ordered_json case_json(const ScoredCase& one) {
     json["size"].push_back(effect.size_fraction);
   }
   return json;
+}
+
+ordered_json design_json(const TrialConfig& trial) {
+  ordered_json rigs = ordered_json::array();
+  for (const Rig rig : trial.rigs) rigs.push_back(name_of(rig));
+  const ConcealDraw& draw = trial.draw;
+  return {{"seed", trial.seed},
+          {"cases", trial.cases},
+          {"rigs", rigs},
+          {"none", draw.none},
+          {"one", draw.one},
+          {"two", draw.two},
+          {"unknown", draw.unknown},
+          {"size_fraction", {draw.smallest, draw.largest}},
+          {"effects", draw.effects},
+          {"nuisances", trial.nuisances},
+          {"time_limit_s", trial.time_limit}};
 }
 
 ordered_json twins_json(const TrialConfig& trial) {
@@ -84,11 +101,13 @@ void add_groups(const std::vector<ScoredCase>& cases, ordered_json& json) {
 
 }  // namespace
 
-ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary) {
+ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary,
+                        const std::string& build_id) {
   ordered_json json = {{"schema", kTrialResultSchema},
                        {"name", trial.name},
                        {"title", trial.title},
-                       {"seed", trial.seed},
+                       {"build_id", build_id},
+                       {"design", design_json(trial)},
                        {"scores", scores_json(score_trial(summary.cases))},
                        {"by_rig", ordered_json::object()}};
   for (const Rig rig : trial.rigs) {

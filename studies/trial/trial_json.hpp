@@ -17,7 +17,8 @@ nlohmann::ordered_json to_json(const CaseScore& score);
 Result<ScoredCase> scored_case_from_json(const nlohmann::ordered_json& artefact);
 
 /// DIR/trial.json.
-nlohmann::ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary);
+nlohmann::ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary,
+                                  const std::string& build_id);
 
 /// DIR/tables/*.csv and *.md. Errors: cannot_write.
 Result<void> write_trial_tables(const TrialSummary& summary, const std::filesystem::path& folder);

@@ -1,0 +1,134 @@
+#include "trial/compute_trial_case.hpp"
+
+#include <chrono>
+#include <exception>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "conceal/lot.hpp"
+#include "flexspline/data/artefact.hpp"
+#include "flexspline/data/checksum.hpp"
+#include "flexspline/data/commitment.hpp"
+#include "trial/trial_json.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What became of the diagnosis of a case.
+struct Attempt {
+  Result<Diagnosis> diagnosis;
+  double seconds = 0.0;
+};
+
+/// The bench may not bring an effect to the drawn size; then another bench tries.
+Result<ConcealedCase> conceal_case(const TrialCase& one) {
+  constexpr std::uint64_t kBenches = 8;
+  ConcealPlan plan = one.plan;
+  for (std::uint64_t attempt = 1;; ++attempt) {
+    auto concealed = conceal(plan);
+    const bool unreachable = !concealed && concealed.error().code == ErrorCode::usage;
+    if (!unreachable || attempt == kBenches) return concealed;
+    plan.seed = lot_bits(one.plan.seed, "other bench", attempt);
+  }
+}
+
+Result<std::string> salt_of(const TrialCase& one, const TrialSettings& settings) {
+  if (settings.salt.empty()) return data::fresh_salt();
+  return data::sha256_hex(settings.salt + one.key);
+}
+
+Attempt diagnose_case(const RecordingSet& recordings, double time_limit, const Diagnose& diagnose) {
+  const auto start = std::chrono::steady_clock::now();
+  Attempt attempt{failure(ErrorCode::defect, "no diagnosis"), 0.0};
+  try {
+    attempt.diagnosis = diagnose(recordings, {});
+  } catch (const std::exception& error) {
+    attempt.diagnosis = failure(ErrorCode::defect, error.what());
+  }
+  attempt.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (attempt.seconds > time_limit) {
+    attempt.diagnosis = failure(
+        ErrorCode::numerics,
+        fmt::format("it took {:.1f} s, where {:.1f} s are allowed", attempt.seconds, time_limit));
+  }
+  return attempt;
+}
+
+/// A diagnosis is scored by nothing but what the seal proves to be the answer of before it.
+Result<void> score(const Attempt& attempt, ordered_json& artefact) {
+  const auto unsealed = data::unseal(artefact["commitment"], artefact["sealed"]);
+  if (!unsealed) return tl::unexpected(unsealed.error());
+  const auto answer = answer_from_json(*unsealed);
+  if (!answer) return tl::unexpected(answer.error());
+  const Diagnosis* diagnosis = attempt.diagnosis ? &*attempt.diagnosis : nullptr;
+  if (diagnosis != nullptr) artefact["diagnosis"] = excerpt_of(*diagnosis);
+  if (diagnosis == nullptr) artefact["failure"] = attempt.diagnosis.error().message();
+  artefact["score"] = to_json(score_case(*answer, diagnosis));
+  artefact["seconds"] = attempt.seconds;
+  return {};
+}
+
+/// Seals the answer in the artefact, and shows the commitment before anyone is asked.
+Result<void> commit(const TrialCase& one, const ConcealedAnswer& concealed,
+                    const TrialSettings& settings, ordered_json& artefact) {
+  const auto salt = salt_of(one, settings);
+  if (!salt) return tl::unexpected(salt.error());
+  const ordered_json answer = to_json(concealed);
+  artefact["sealed"] = data::sealed(answer, *salt);
+  artefact["commitment"] =
+      data::commitment_to(answer, *salt, fmt::format("what was concealed in {}", one.key));
+  return data::write_artefact(settings.run.folder / "commitments" / (one.key + ".json"),
+                              artefact["commitment"]);
+}
+
+ordered_json empty_artefact(const TrialCase& one, const std::string& depends_on) {
+  ordered_json artefact = {{"schema", kTrialCaseSchema},
+                           {"key", one.key},
+                           {"depends_on", depends_on},
+                           {"status", "done"}};
+  for (const char* key : {"failure", "commitment", "sealed", "diagnosis", "score", "seconds"}) {
+    artefact[key] = nullptr;
+  }
+  return artefact;
+}
+
+}  // namespace
+
+std::string dependencies_of(const TrialConfig& trial, const TrialCase& one,
+                            const std::string& build_id) {
+  ordered_json what = {{"build", build_id},
+                       {"rig", name_of(one.plan.rig)},
+                       {"seed", one.plan.seed},
+                       {"time_limit", trial.time_limit},
+                       {"nuisances", one.plan.nuisances}};
+  for (const data::HiddenEffect& effect : one.plan.effects) {
+    what["effects"].push_back({effect.id, effect.size_fraction});
+  }
+  return data::sha256_hex(what.dump());
+}
+
+Result<ordered_json> compute_trial_case(const TrialConfig& trial, const TrialCase& one,
+                                        const TrialSettings& settings, const Diagnose& diagnose) {
+  ordered_json artefact = empty_artefact(one, dependencies_of(trial, one, settings.run.build_id));
+  const auto concealed = conceal_case(one);
+  if (!concealed) {
+    artefact["status"] = "not concealed";
+    artefact["failure"] = concealed.error().message();
+    return artefact;
+  }
+  const auto committed = commit(one, concealed->answer, settings, artefact);
+  if (!committed) return tl::unexpected(committed.error());
+  if (!settings.recordings.empty()) {
+    const auto kept = data::write_dataset(settings.recordings / one.key, concealed->recordings);
+    if (!kept) return tl::unexpected(kept.error());
+  }
+  const auto scored =
+      score(diagnose_case(concealed->recordings, trial.time_limit, diagnose), artefact);
+  if (!scored) return tl::unexpected(scored.error());
+  return artefact;
+}
+
+}  // namespace flexspline::studies
