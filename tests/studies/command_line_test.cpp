@@ -185,6 +185,11 @@ TEST_F(CommandLine, ConcealWritesADataSetThatIsValidWithTheAnswerBesideIt) {
   ASSERT_EQ(call("conceal " + path("bench.toml") + " --out " + path("three")).code, 0);
   EXPECT_NE(read_text(path("one/commitment.json")), read_text(path("three/commitment.json")))
       << "a salt of its own";
+  EXPECT_EQ(call("validate " + path("one/answer.sealed.json")).code, 0);
+  folder_.write("one/commitment.json", read_text(path("three/commitment.json")));
+  const Finished tampered = call("validate " + path("one/answer.sealed.json"));
+  EXPECT_EQ(tampered.code, 65);
+  EXPECT_THAT(tampered.output, HasSubstr("not what was committed to"));
 }
 
 TEST_F(CommandLine, ConcealRefusesABadBenchAndWritesNothing) {

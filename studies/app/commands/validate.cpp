@@ -5,6 +5,7 @@
 
 #include "command.hpp"
 #include "flexspline/core/write_file.hpp"
+#include "flexspline/data/commitment.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/studies/conceal.hpp"
@@ -57,6 +58,13 @@ Result<Verdict> check_plain(std::string what, const std::filesystem::path& file)
   return Verdict{std::move(what), messages(reading->errors), {}};
 }
 
+/// An answer against the commitment beside it.
+Verdict check_seal(const std::filesystem::path& file) {
+  const auto answer = data::unseal(file.parent_path() / "commitment.json", file);
+  if (answer) return {"sealed answer, the one that was committed to", {}, {}};
+  return {"sealed answer", {answer.error().message()}, {}};
+}
+
 Result<Verdict> check(const std::filesystem::path& path, const std::string& data_root) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return check_dataset(path);
@@ -75,6 +83,7 @@ Result<Verdict> check(const std::filesystem::path& path, const std::string& data
   if (content->find("flexspline-trial/") != std::string::npos) {
     return check_plain<&studies::read_trial>("trial", path);
   }
+  if (content->find(data::kSealedSchema) != std::string::npos) return check_seal(path);
   return check_study(path, data_root);
 }
 
