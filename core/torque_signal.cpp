@@ -63,7 +63,7 @@ double turning_time(const Quintic& motion, double low, double high) {
 class TorqueAlong {
  public:
   TorqueAlong(DriveModel model, const Motion& motion) : model_(std::move(model)) {
-    for (const auto& one : parameters_of(model_.drive(), model_.constants())) {
+    for (const auto& one : flexspline::parameters_of(model_.drive(), model_.constants())) {
       p_.push_back(one.value);
     }
     std::vector<double> memory(model_.memory(), 0.0);
@@ -125,8 +125,39 @@ class TorqueAlong {
     const auto after = seen(at, to);
     for (const EffectUse& use : model_.effects()) {
       if (use.states == 0) continue;
-      use.row->real.advance(before, after, std::span(p_).subspan(use.parameter, use.parameters),
-                            std::span(memory).subspan(use.state, use.states));
+      const auto states = std::span(memory).subspan(use.state, use.states);
+      if (use.row->rate_independent) {
+        use.row->real.advance(before, after, parameters_of(use), states);
+      } else {
+        integrate(use, at, from, to, states);
+      }
+    }
+  }
+
+  std::span<const double> parameters_of(const EffectUse& use) const {
+    return std::span(p_).subspan(use.parameter, use.parameters);
+  }
+
+  // A memory that knows the clock follows the curve between the instants, not only its ends: four
+  // steps of Runge and Kutta's.
+  void integrate(const EffectUse& use, const DriveAt<double>& at, const Point& from,
+                 const Point& to, std::span<double> states) const {
+    constexpr int kSteps = 4;
+    const double h = (to.time - from.time) / kSteps;
+    if (!(h > 0.0)) return;
+    const Quintic motion(from, to);
+    std::vector<double> k(states.size()), sum(states.size()), trial(states.size());
+    for (int n = 0; n < kSteps; ++n) {
+      std::ranges::fill(k, 0.0);
+      std::ranges::fill(sum, 0.0);
+      for (const auto& [ahead, weight] :
+           {std::pair(0.0, 1.0), {0.5, 2.0}, {0.5, 2.0}, {1.0, 1.0}}) {
+        for (std::size_t j = 0; j < trial.size(); ++j) trial[j] = states[j] + ahead * h * k[j];
+        const auto x = seen(at, motion.at(from.time + (n + ahead) * h));
+        use.row->real.rate(x, parameters_of(use), trial, k);
+        for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += weight * k[j];
+      }
+      for (std::size_t j = 0; j < sum.size(); ++j) states[j] += h / 6.0 * sum[j];
     }
   }
 

@@ -10,8 +10,9 @@ namespace flexspline {
 
 /// simulate_torque as a function of time, between the motion's first and last instant: the motion
 /// by the quintic through phi, phi' and phi'' of both neighbours, its turning points found, so that
-/// every piece is monotone and stop operators are exact at any instant. Sampled torque instead
-/// rounds the corners where elements begin to slip, by the interval squared.
+/// every piece is monotone and stop operators are exact at any instant; memories that know the clock
+/// are integrated along the curve, fourth order. Sampled torque instead rounds the corners where
+/// elements begin to slip, by the interval squared.
 /// Errors: those of a force-driven specimen; kinematics that follow the torque.
 Result<Signal> torque_signal(const ModelSpec& model, const Motion& motion);
 
