@@ -31,6 +31,7 @@ double stiffness_along(const DrivenProblem& problem, const DrivenSeries& one,
   const std::size_t stride = std::max<std::size_t>(1, one.intervals() / kLooks);
   double largest = 0.0;
   for (std::size_t n = 0; n < one.intervals(); n += stride) {
+    if (!(one.weight[n] > 0.0)) continue;
     const double slope = driven_slope(problem, p, one.torque[n], one.motion[n]);
     largest = std::max(largest, one.width(n) * std::abs(slope));
   }

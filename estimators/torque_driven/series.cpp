@@ -10,9 +10,11 @@ namespace {
 
 constexpr double kEven = 1e-9;  // relative jitter up to which sampling counts as even
 
-double largest(std::span<const double> values) {
+double largest_valid(const TorsionRecord& record, std::span<const double> values) {
   double result = 0.0;
-  for (const double v : values) result = std::max(result, std::abs(v));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i >= record.valid.size() || record.valid[i]) result = std::max(result, std::abs(values[i]));
+  }
   return result;
 }
 
@@ -22,10 +24,11 @@ Result<void> check(const TorsionRecord& record) {
                    fmt::format("recording {} has {} samples", record.id, record.time.size()),
                    "give 16 or more");
   }
-  if (!(largest(record.motion) > 0.0) || !(largest(record.effort) > 0.0)) {
+  if (!(largest_valid(record, record.motion) > 0.0) ||
+      !(largest_valid(record, record.effort) > 0.0)) {
     return failure(ErrorCode::bad_data,
                    fmt::format("recording {} has no {}", record.id,
-                               largest(record.motion) > 0.0 ? "torque" : "motion"),
+                               largest_valid(record, record.motion) > 0.0 ? "torque" : "motion"),
                    "leave it out");
   }
   return {};
@@ -73,9 +76,9 @@ DrivenSeries series_of(const TorsionRecord& record, double motion_scale, double 
   one.torque_slope = spline_slopes(one.time, one.torque);
   one.step = even_step(one.time);
   one.initial = initial == InitialMotion::rest ? 0.0 : one.motion.front();
-  const double peak =
-      record.amplitude.value_or(0.0) > 0.0 ? *record.amplitude / motion_scale : largest(one.motion);
-  one.weight.assign(n, 1.0 / peak);
+  const double peak = record.amplitude.value_or(0.0) > 0.0 ? *record.amplitude
+                                                           : largest_valid(record, record.motion);
+  one.weight.assign(n, motion_scale / peak);
   for (std::size_t i = 0; i < record.valid.size(); ++i) {
     if (record.valid[i]) continue;
     one.weight[i] = 0.0;
@@ -105,8 +108,8 @@ Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, 
   }
   for (const auto& record : records) {
     if (auto checked = check(record); !checked) return tl::unexpected(checked.error());
-    problem.motion_scale = std::max(problem.motion_scale, largest(record.motion));
-    problem.torque_scale = std::max(problem.torque_scale, largest(record.effort));
+    problem.motion_scale = std::max(problem.motion_scale, largest_valid(record, record.motion));
+    problem.torque_scale = std::max(problem.torque_scale, largest_valid(record, record.effort));
   }
   for (const auto& record : records) {
     problem.series.push_back(
@@ -130,6 +133,7 @@ std::vector<double> driven_start(const DrivenProblem& problem) {
   double lost = 0.0;
   for (const auto& one : problem.series) {
     for (std::size_t i = kSpan; i < one.time.size(); i += kSpan) {
+      if (!(one.weight[i] > 0.0 && one.weight[i - kSpan] > 0.0)) continue;
       const double moved = one.motion[i] - one.motion[i - kSpan];
       torque_motion += one.torque[i] * one.motion[i];
       motion_motion += one.motion[i] * one.motion[i];
