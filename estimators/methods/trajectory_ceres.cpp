@@ -69,8 +69,11 @@ Estimate estimate_of(const TrajectoryFit& fit, const std::vector<PreparedRecord>
   estimate.fits = recording_fits(records, fit.linear.residual);
   estimate.identifiability = {decision.condition, decision.absorbed, decision.verdict,
                               decision.says};
-  estimate.bands = torsion_bands(fit.at.layout, fit.solution.p, fit.covariance,
-                                 {ranges.lowest_motion, ranges.highest_motion, ranges.velocity});
+  const Domain domain{ranges.lowest_motion, ranges.highest_motion, ranges.velocity};
+  const Eigen::MatrixXd draws = draws_at_bounds(fit, records);
+  estimate.bands = draws.rows() > 0
+                       ? torsion_bands(fit.at.layout, fit.solution.p, draws, domain, DrawnBands())
+                       : torsion_bands(fit.at.layout, fit.solution.p, fit.covariance, domain);
   estimate.notes = decision.notes;
   estimate.evaluations = fit.solution.evaluations;
   return estimate;
