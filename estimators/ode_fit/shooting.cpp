@@ -16,7 +16,7 @@ constexpr std::size_t kPatience = 5;  // passes before that counts
 
 SolverSettings solver_settings(const OdeFitSettings& settings) {
   return {.max_iterations = settings.max_iterations,
-          .function_tolerance = 1e-13,
+          .function_tolerance = settings.function_tolerance,
           .parameter_tolerance = 1e-13};
 }
 

@@ -165,7 +165,7 @@ Result<OdeFit> with_statistics(const OdeLayout& layout, const OdeSolution& solut
                      sandwich(j, noise * noise * j.transpose() * j,
                               std::vector<bool>(static_cast<std::size_t>(j.cols()), false)) *
                      free.transpose();
-    fit.identifiability = verdict(layout, q, free, at->jacobian, noise);
+    fit.identifiability = verdict(layout, q, free, at->jacobian, noise, settings.propose_recording);
   } else {
     fit.notes.push_back("no covariance: the trajectory cannot be integrated at the solution: " +
                         at.error().message());

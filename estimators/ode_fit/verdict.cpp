@@ -118,8 +118,8 @@ Flattest flattest(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& free,
 }  // namespace
 
 Identifiability verdict(const OdeLayout& layout, std::span<const double> q,
-                        const Eigen::MatrixXd& free, const Eigen::MatrixXd& jacobian,
-                        double noise) {
+                        const Eigen::MatrixXd& free, const Eigen::MatrixXd& jacobian, double noise,
+                        bool propose_recording) {
   Identifiability result;
   if (free.cols() == 0 || !(noise > 0.0)) return result;
   const auto among = unknowns_in(free);
@@ -159,7 +159,7 @@ Identifiability verdict(const OdeLayout& layout, std::span<const double> q,
     result.says += fmt::format("; the rest, {} foremost, imitates {} with cosine {:.6f}", first.by,
                                first.parameter, first.cosine);
   }
-  if (result.verdict != "identifiable") {
+  if (propose_recording && result.verdict != "identifiable") {
     result.says += "; " + helpful_recording(layout, q, free, jacobian, flat.relative, sizes);
   }
   return result;

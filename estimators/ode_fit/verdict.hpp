@@ -12,6 +12,7 @@ namespace flexspline::estimators {
 /// those of q; noise is the standard deviation of the residuals. Not tried: other inputs, which the
 /// description of a system does not show.
 Identifiability verdict(const OdeLayout& layout, std::span<const double> q,
-                        const Eigen::MatrixXd& free, const Eigen::MatrixXd& jacobian, double noise);
+                        const Eigen::MatrixXd& free, const Eigen::MatrixXd& jacobian, double noise,
+                        bool propose_recording);
 
 }  // namespace flexspline::estimators

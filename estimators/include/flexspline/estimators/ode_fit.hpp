@@ -84,6 +84,8 @@ struct OdeFitSettings {
   bool equation_error_start = true;  ///< collocation: parameters start where the smoothed outputs
                                      ///< satisfy the law best, where these show every state
   UncertaintySettings uncertainty{};
+  double function_tolerance = 1e-13;  ///< shooting: relative fall of the cost that ends a solve
+  bool propose_recording = true;      ///< where something is not told well: costs some simulations
 };
 
 /// The noise that one output was weighted with, over all experiments.
