@@ -61,8 +61,8 @@ TEST(OdeFitCoverage, IsWhatTheIntervalsSay) {
 }
 
 // Starts up to a factor of 4 off in every rate, where single shooting finds home two times in
-// three: multiple shooting loses at most one in fifty, collocation (whose rates still start where
-// they are told) one in five.
+// three: multiple shooting loses at most one in fifty, collocation, whose rates too start from the
+// measurements, none.
 TEST(OdeFitStarts, ComeHomeFromAfar) {
   const auto& row = certified("lotka_volterra");
   std::mt19937_64 engine(1);
@@ -79,7 +79,7 @@ TEST(OdeFitStarts, ComeHomeFromAfar) {
   }
   RecordProperty("single_shooting", home[0]);
   EXPECT_GE(home[1], kStarts * 98 / 100) << "multiple shooting";
-  EXPECT_GE(home[2], kStarts * 80 / 100) << "collocation";
+  EXPECT_EQ(home[2], kStarts) << "collocation";
   EXPECT_LT(home[0], home[2]) << "single shooting alone would do";
 }
 
