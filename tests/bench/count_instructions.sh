@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# count_instructions.sh PROGRAM GOLDEN [--record]: instructions of the base fit by callgrind, against
+# the number in GOLDEN; more than 10 % above it fails. --record writes the number down instead.
+set -euo pipefail
+
+program=$1
+golden=$2
+if ! command -v valgrind >/dev/null; then
+  echo "skipped: valgrind is not installed"
+  exit 77
+fi
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+valgrind --tool=callgrind --toggle-collect='*counted_base_fit*' \
+  --callgrind-out-file="$folder/out" "$program" >"$folder/says" 2>&1 || {
+  cat "$folder/says" >&2
+  exit 1
+}
+count=$(sed -n 's/^summary: \([0-9]*\).*/\1/p; s/^totals: \([0-9]*\).*/\1/p' "$folder/out" | head -n 1)
+if [[ ${3:-} == --record ]]; then
+  echo "$count" >"$golden"
+  echo "recorded $count instructions"
+  exit 0
+fi
+recorded=$(cat "$golden")
+echo "$count instructions, recorded $recorded"
+if ((count * 10 > recorded * 11)); then
+  echo "the base fit takes more than 10 % more instructions than recorded;" \
+    "find out why, or record the new number: $0 $program $golden --record" >&2
+  exit 1
+fi
