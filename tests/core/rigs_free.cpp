@@ -44,6 +44,16 @@ class WithBooks final : public OdeSystem {
     const S spring(x.torsion * S(stiff + S(cubic * S(x.torsion * x.torsion)) + ripple));
     ydot[n] = S(x.motor_torque * x.motor_speed);
     ydot[n + 1] = S(motor + load + S(x.torsion_rate * S(x.transmitted_torque - spring)));
+    ydot[n + 1] += lost_in_joint(x, y[4]);
+  }
+
+  // What crosses a joint beyond the torque of its spring, T z, is friction.
+  template <class S>
+  S lost_in_joint(const Instant<S>& x, const S& play) const {
+    const auto& effects = rig_.drive().torsion.effects;
+    if (effects.empty() || effects[0].effect != "play_backlash") return S(0.0);
+    const S turned(S(x.motor_speed / x.gear_ratio) - x.load_speed - x.torsion_rate);
+    return S(turned * S(x.transmitted_torque - S(effects[0].parameters[1].second * play)));
   }
   const RigSystem& rig_;
 };
@@ -80,6 +90,14 @@ double stored_in_ripple(const DriveSpec& d, const Instant<double>& x) {
   return 0.5 * stiffness * x.torsion * x.torsion;
 }
 
+/// What the rounded end of a joint's gap stores: b T (1 - 1/sqrt(z^2 + 1)).
+double stored_in_joint(const DriveSpec& d, double play) {
+  const auto& effects = d.torsion.effects;
+  if (effects.empty() || effects[0].effect != "play_backlash") return 0.0;
+  const auto& p = effects[0].parameters;
+  return p[0].second * p[1].second * (1.0 - 1.0 / std::hypot(play, 1.0));
+}
+
 double worst_imbalance(double tolerance, std::vector<EffectSpec> effects = {}) {
   DriveSpec drive = example_drive();
   drive.torsion.effects = std::move(effects);
@@ -96,7 +114,8 @@ double worst_imbalance(double tolerance, std::vector<EffectSpec> effects = {}) {
     const auto state = std::span(y).subspan(i * system.states(), system.states());
     const auto x = rig->instant(times[i], state.first(rig->states()), p);
     const std::size_t books = rig->states();
-    const double kept = stored(drive, x) + stored_in_series(drive, x) + stored_in_ripple(drive, x);
+    const double kept = stored(drive, x) + stored_in_series(drive, x) + stored_in_ripple(drive, x) +
+                        stored_in_joint(drive, state[4]);
     // A kinematic error winds the gear up before anything has moved.
     if (i == 0) start_energy = kept;
     worst = std::max(worst, std::abs(kept - start_energy + state[books + 1] - state[books]));
@@ -125,6 +144,7 @@ TEST(FreeRig, StoresOrLosesWhatIsPutInWithItsKinematics) {
   const EffectSpec series{"series_compliance", {{"compliance", 4.8e-5}}};
   const EffectSpec wave{"load_dependent_kinematic_error",
                         {{"compliance", 2e-5}, {"order", 2.0}, {"phase", 0.1}}};
+  const EffectSpec joint{"play_backlash", {{"half_gap", 1e-4}, {"friction", 4.5}}};
   const EffectSpec ripple{"stiffness_ripple",
                           {{"stiffness", 600.0}, {"order", 2.0}, {"phase", 0.7}}};
   const std::vector<std::pair<std::string, std::vector<EffectSpec>>> cases = {
@@ -133,6 +153,7 @@ TEST(FreeRig, StoresOrLosesWhatIsPutInWithItsKinematics) {
       {"a spring in series", {series}},
       {"a spring that turns with the motor", {series, wave}},
       {"a stiffness that turns with the motor", {ripple}},
+      {"a joint with play and friction", {joint}},
       {"all of them", {error, output, series, wave, ripple}}};
   for (const auto& [name, effects] : cases) {
     const double coarse = worst_imbalance(1e-6, effects);
