@@ -96,10 +96,10 @@ Identifiability identifiability_of(const std::vector<ParameterEstimate>& paramet
 double highest_speed(const DrivenProblem& problem) {
   double speed = 0.0;
   for (const auto& one : problem.series) {
-    constexpr std::size_t kSpan = 8;  // beyond the noise of single samples
-    for (std::size_t i = kSpan; i < one.time.size(); i += kSpan) {
-      speed = std::max(speed, std::abs(one.motion[i] - one.motion[i - kSpan]) /
-                                  (one.time[i] - one.time[i - kSpan]));
+    const std::size_t span = reading_span(one);
+    for (std::size_t i = span; i < one.time.size(); i += span) {
+      speed = std::max(speed, std::abs(one.motion[i] - one.motion[i - span]) /
+                                  (one.time[i] - one.time[i - span]));
     }
   }
   return speed * problem.motion_scale;

@@ -87,7 +87,7 @@ void LaneSet::pack(Packed& packed) const {
   const std::size_t torque = torque_rows(packed.plan.formula, block);
   const std::size_t width = even ? 1 : rows;
   const std::size_t weight = valid ? 1 : rows;
-  const std::size_t total = torque + width + rows + weight + 2 + sums_.normal.size();
+  const std::size_t total = torque + width + 2 * rows + weight + 2 + sums_.normal.size();
   packed.memory.reset(new (kLine) double[total * lanes]);
   double* at = packed.memory.get();
   const auto next = [&](std::size_t count) { return std::exchange(at, at + count * lanes); };
@@ -98,6 +98,7 @@ void LaneSet::pack(Packed& packed) const {
   double* const initial_at = next(1);
   packed.stiffness = next(1);
   packed.normal = next(sums_.normal.size());
+  packed.state = next(rows);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     fill_lane(packed, lane, torque_at, width_at, measured_at, weight_at);
     const std::size_t s = packed.series[std::min(lane, packed.series.size() - 1)];
@@ -148,8 +149,9 @@ LaneLaws LaneSet::laws(std::span<const double> p) const {
 const LaneSums& LaneSet::sums(std::span<const double> p) {
   crew_.run(blocks_.size(), [&](std::size_t b) {
     Packed& packed = blocks_[b];
-    packed.kernel(laws(p), packed.block, {packed.normal, packed.stiffness, nullptr});
+    packed.kernel(laws(p), packed.block, {packed.normal, packed.stiffness, packed.state});
   });
+  states_at_.assign(p.begin(), p.end());
   std::ranges::fill(sums_.normal, 0.0);
   for (const Packed& packed : blocks_) {
     const auto lanes = static_cast<std::size_t>(packed.block.lanes);
@@ -167,18 +169,19 @@ const LaneSums& LaneSet::sums(std::span<const double> p) {
 }
 
 std::vector<std::vector<double>> LaneSet::states(std::span<const double> p) {
+  const bool known = std::ranges::equal(p, states_at_);
   std::vector<std::vector<double>> result(problem_.series.size());
+  for (std::size_t s = 0; s < result.size(); ++s) result[s].resize(problem_.series[s].intervals());
   crew_.run(blocks_.size(), [&](std::size_t b) {
     Packed& packed = blocks_[b];
     const auto lanes = static_cast<std::size_t>(packed.block.lanes);
-    std::vector<double> state(static_cast<std::size_t>(packed.block.intervals) * lanes);
-    packed.kernel(laws(p), packed.block, {nullptr, packed.stiffness, state.data()});
+    if (!known) packed.kernel(laws(p), packed.block, {nullptr, packed.stiffness, packed.state});
     for (std::size_t lane = 0; lane < packed.series.size(); ++lane) {
       auto& out = result[packed.series[lane]];
-      out.resize(problem_.series[packed.series[lane]].intervals());
-      for (std::size_t n = 0; n < out.size(); ++n) out[n] = state[n * lanes + lane];
+      for (std::size_t n = 0; n < out.size(); ++n) out[n] = packed.state[n * lanes + lane];
     }
   });
+  states_at_.assign(p.begin(), p.end());
   return result;
 }
 

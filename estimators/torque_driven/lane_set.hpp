@@ -33,7 +33,7 @@ class LaneSet {
 
   /// B'B at coefficients p, lower triangle row by row.
   const LaneSums& sums(std::span<const double> p);
-  /// Motion of every recording at its samples after the first.
+  /// Motion of every recording at its samples after the first; what the sums at the same p came by.
   std::vector<std::vector<double>> states(std::span<const double> p);
 
  private:
@@ -50,6 +50,7 @@ class LaneSet {
     Memory memory{};
     double* normal = nullptr;
     double* stiffness = nullptr;
+    double* state = nullptr;
   };
 
   void arrange(const std::vector<LanePlan>& plans, InstructionSet set);
@@ -61,6 +62,7 @@ class LaneSet {
   const DrivenProblem& problem_;
   Crew& crew_;
   std::vector<Packed> blocks_;
+  std::vector<double> states_at_;  // coefficients that the blocks' states belong to
   LaneSums sums_;
 };
 

@@ -124,21 +124,39 @@ Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, 
   return problem;
 }
 
+std::size_t reading_span(const DrivenSeries& series) {
+  constexpr double kChange = 0.1;
+  const std::size_t longest = series.intervals() / 4;
+  std::size_t span = 2;
+  for (; 2 * span <= longest; span *= 2) {
+    double moved = 0.0;
+    double peak = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = span; i < series.motion.size(); i += span, ++count) {
+      if (!(series.weight[i] > 0.0 && series.weight[i - span] > 0.0)) continue;
+      moved += std::abs(series.motion[i] - series.motion[i - span]);
+      peak = std::max(peak, std::abs(series.motion[i]));
+    }
+    if (moved >= kChange * peak * static_cast<double>(count)) break;
+  }
+  return span;
+}
+
 std::vector<double> driven_start(const DrivenProblem& problem) {
-  constexpr std::size_t kSpan = 16;  // samples between which a speed is read, beyond the noise
-  constexpr double kHigher = 0.1;    // of higher terms, over the linear one
+  constexpr double kHigher = 0.1;  // of higher terms, over the linear one
   double torque_motion = 0.0;
   double motion_motion = 0.0;
   double speed_speed = 0.0;
   double lost = 0.0;
   for (const auto& one : problem.series) {
-    for (std::size_t i = kSpan; i < one.time.size(); i += kSpan) {
-      if (!(one.weight[i] > 0.0 && one.weight[i - kSpan] > 0.0)) continue;
-      const double moved = one.motion[i] - one.motion[i - kSpan];
+    const std::size_t span = reading_span(one);
+    for (std::size_t i = span; i < one.time.size(); i += span) {
+      if (!(one.weight[i] > 0.0 && one.weight[i - span] > 0.0)) continue;
+      const double moved = one.motion[i] - one.motion[i - span];
       torque_motion += one.torque[i] * one.motion[i];
       motion_motion += one.motion[i] * one.motion[i];
-      speed_speed += moved * moved / (one.time[i] - one.time[i - kSpan]);
-      lost += moved * one.torque[i - kSpan / 2];
+      speed_speed += moved * moved / (one.time[i] - one.time[i - span]);
+      lost += moved * one.torque[i - span / 2];
     }
   }
   const double stiffness = torque_motion > 0.0 ? torque_motion / motion_motion : 1.0;

@@ -53,6 +53,10 @@ enum class InitialMotion { rest, measured };
 Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, int f, int g, int h,
                                      InitialMotion initial);
 
+/// Samples between which a speed can be read: so many that the motion changes by a tenth of its
+/// peak on average, which is beyond the noise.
+std::size_t reading_span(const DrivenSeries& series);
+
 /// A linear spring by regression and a linear damper from the energy that the recordings lose, with
 /// a little of every higher term; h = 1.
 std::vector<double> driven_start(const DrivenProblem& problem);
