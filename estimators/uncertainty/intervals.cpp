@@ -17,6 +17,7 @@ Result<Intervals> by_profile(const FittedProblem& fit, const SolverSettings& sol
         profile_interval(fit.problem, fit.parameters, fit.p, fit.covariance, k,
                          {.variance = fit.variances.empty() ? fit.variance : fit.variances[k],
                           .quantile = fit.quantile,
+                          .tolerance = fit.tolerance,
                           .solver = solver});
     if (!one) return tl::unexpected(one.error());
     open += one->lower_open || one->upper_open;

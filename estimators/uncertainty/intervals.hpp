@@ -19,6 +19,7 @@ struct FittedProblem {
   double quantile = 1.959963984540054;  ///< two-sided 95 %
   bool noise_known = false;
   std::vector<NoiseSeries> series{};  ///< of the residuals; empty: block by block
+  double tolerance = 1e-6;            ///< of the ends of profiles
   std::vector<double> variances{};    ///< of the residuals, as each parameter\'s profile takes it;
                                       ///< empty: variance for all
 };

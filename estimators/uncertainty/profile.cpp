@@ -10,7 +10,6 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr int kTrials = 40;
-constexpr double kClose = 1e-7;      // of the quantile
 constexpr double kFar = 1e4;         // first steps without a rise that count as infinity
 constexpr double kLongest = 4.0;     // times the last step
 constexpr double kFirstShare = 0.1;  // of the typical size, where the covariance says nothing
@@ -80,7 +79,7 @@ class Profile {
       evaluations += found->evaluations;
     }
     const double rise = 2.0 * (cost - least_) / settings_.variance;
-    if (rise < -kBetter) return better(distance, cost);
+    if (rise < -std::max(kBetter, settings_.tolerance)) return better(distance, cost);
     return std::sqrt(std::max(0.0, rise));
   }
 
@@ -146,7 +145,7 @@ double next_distance(const Point& inside, const Point& outside, double quantile,
 }
 
 // Distance at which the profile reaches the quantile on one side; infinity where it does not.
-Result<double> reach(Profile& profile, double sign, double quantile) {
+Result<double> reach(Profile& profile, double sign, double quantile, double tolerance) {
   const double room = profile.room(sign);
   const double first = std::min(profile.first_step(), room);
   if (!(room > 0.0)) return std::numeric_limits<double>::infinity();
@@ -157,7 +156,7 @@ Result<double> reach(Profile& profile, double sign, double quantile) {
   for (int k = 0; k < kTrials; ++k) {
     const auto rise = profile.rise(sign * trial);
     if (!rise) failed = rise.error();
-    if (rise && std::abs(*rise - quantile) < kClose * quantile) return trial;
+    if (rise && std::abs(*rise - quantile) < tolerance * quantile) return trial;
     if (rise && *rise < quantile) {
       inside = {trial, *rise};
       if (trial >= room || trial > kFar * first) return std::numeric_limits<double>::infinity();
@@ -185,8 +184,8 @@ Result<ProfileInterval> profile_interval(const LeastSquaresProblem& problem,
   const auto least = half_sum_of_squares(problem, p);
   if (!least) return tl::unexpected(least.error());
   Profile profile(problem, parameters, p, covariance, k, settings, *least);
-  const auto down = reach(profile, -1.0, settings.quantile);
-  const auto up = reach(profile, 1.0, settings.quantile);
+  const auto down = reach(profile, -1.0, settings.quantile, settings.tolerance);
+  const auto up = reach(profile, 1.0, settings.quantile, settings.tolerance);
   if (!down || !up) return tl::unexpected(down ? up.error() : down.error());
   ProfileInterval interval;
   interval.lower_open = std::isinf(*down);

@@ -9,6 +9,7 @@ namespace flexspline::estimators {
 struct ProfileSettings {
   double variance = 1.0;                ///< of the residuals
   double quantile = 1.959963984540054;  ///< of the standard normal or Student's law, two-sided
+  double tolerance = 1e-7;  ///< of the ends, relative; not below the noise of the residuals
   SolverSettings solver{.function_tolerance = 1e-12, .parameter_tolerance = 1e-12};
 };
 

@@ -11,7 +11,9 @@
 namespace flexspline::estimators {
 namespace {
 
-constexpr double kNear = 2.0;  // standard deviations
+constexpr double kRounding = 1e-11;  // of a cost without an integrator
+constexpr double kEnds = 1e-5;       // of a profile's ends, relative
+constexpr double kNear = 2.0;        // standard deviations
 constexpr Eigen::Index kDraws = 3000;
 constexpr std::uint64_t kSeed = 1;
 
@@ -29,9 +31,9 @@ std::vector<double> inflations(const TrajectoryFit& fit) {
 
 Result<Intervals> of(const LeastSquaresProblem& problem, const TrajectoryFit& fit,
                      const std::vector<PreparedRecord>& records,
-                     const UncertaintySettings& settings, SolverSettings solver) {
-  solver.function_tolerance = std::min(solver.function_tolerance, 1e-11);
-  solver.parameter_tolerance = std::min(solver.parameter_tolerance, 1e-11);
+                     const UncertaintySettings& settings, SolverSettings solver, double noise) {
+  solver.function_tolerance = noise;
+  solver.parameter_tolerance = noise;
   auto bounds = bounded_parameters(fit.at.layout, records, fit.at.p);
   // The filters of the residuals stand where the fit ended: settle there first.
   const auto settled = minimise(problem, bounds, solver);
@@ -40,6 +42,7 @@ Result<Intervals> of(const LeastSquaresProblem& problem, const TrajectoryFit& fi
                     .parameters = bounds,
                     .p = settled->p,
                     .covariance = fit.covariance,
+                    .tolerance = std::max(kEnds, 1e3 * noise),
                     .variances = inflations(fit)},
                    settings, solver);
 }
@@ -92,11 +95,11 @@ Result<Intervals> torsion_intervals(const TrajectoryFit& fit,
                                     const IntegratorSettings& integrator) {
   if (settings.kind == Uncertainty::covariance) return Intervals{};
   if (fit.direction == Direction::torque) {
-    return of(TorqueResiduals(fit.at.layout, records), fit, records, settings, solver);
+    return of(TorqueResiduals(fit.at.layout, records), fit, records, settings, solver, kRounding);
   }
   TorsionResiduals problem(fit.at.layout, records, integrator);
   if (auto weighed = problem.weigh(fit.at.p); !weighed) return tl::unexpected(weighed.error());
-  return of(problem, fit, records, settings, solver);
+  return of(problem, fit, records, settings, solver, integrator.relative_tolerance);
 }
 
 }  // namespace flexspline::estimators
