@@ -1,10 +1,20 @@
 #include "torque_driven/crew.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 
 namespace flexspline::estimators {
 namespace {
+
+// Looks for a while whether something has come about; sleeping is up to the caller. It does not
+// yield: on a busy machine that gives away milliseconds.
+template <class Condition>
+void watch_for(const Condition& come_about) {
+  constexpr std::chrono::microseconds kPatience(60);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  while (!come_about() && std::chrono::steady_clock::now() < until) {
+  }
+}
 
 std::atomic<int>& running_fits() {
   static std::atomic<int> count = 0;
@@ -34,8 +44,12 @@ void Crew::run(std::size_t pieces, const std::function<void(std::size_t)>& work)
   work_ = &work;
   pieces_ = undone_ = pieces;
   next_ = 0;
+  ++rounds_;
   wake_.notify_all();
   take_pieces(lock);
+  lock.unlock();
+  watch_for([this] { return undone_ == 0; });
+  lock.lock();
   finished_.wait(lock, [this] { return undone_ == 0; });
 }
 
@@ -53,6 +67,10 @@ void Crew::take_pieces(std::unique_lock<std::mutex>& lock) {
 void Crew::wait_for_work() {
   std::unique_lock lock(mutex_);
   while (!leave_) {
+    const std::size_t seen = rounds_;
+    lock.unlock();
+    watch_for([&] { return leave_ || rounds_ != seen; });
+    lock.lock();
     wake_.wait(lock, [this] { return leave_ || next_ < pieces_; });
     take_pieces(lock);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -8,7 +9,9 @@
 
 namespace flexspline::estimators {
 
-/// Threads that wait (asleep, not spinning) for pieces of work. The caller works too.
+/// Threads that wait for pieces of work: awake for some tens of microseconds, because being woken
+/// takes longer than the pause between two evaluations; then asleep, because a thread that spins on
+/// a busy machine holds up those that it waits for. The caller works too.
 class Crew {
  public:
   explicit Crew(int threads);
@@ -30,8 +33,10 @@ class Crew {
   const std::function<void(std::size_t)>* work_ = nullptr;
   std::size_t pieces_ = 0;
   std::size_t next_ = 0;
-  std::size_t undone_ = 0;
-  bool leave_ = false;
+  // Changed under the mutex, watched without it.
+  std::atomic<std::size_t> undone_ = 0;
+  std::atomic<std::size_t> rounds_ = 0;
+  std::atomic<bool> leave_ = false;
   std::vector<std::jthread> threads_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "torque_driven/law.hpp"
+#include "torque_driven/driven_ode.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -29,11 +29,11 @@ double stiffness_along(const DrivenProblem& problem, const DrivenSeries& one,
                        std::span<const double> p) {
   constexpr std::size_t kLooks = 64;
   const std::size_t stride = std::max<std::size_t>(1, one.intervals() / kLooks);
+  const DrivenOde ode(problem, one, p);
   double largest = 0.0;
   for (std::size_t n = 0; n < one.intervals(); n += stride) {
     if (!(one.weight[n] > 0.0)) continue;
-    const double slope = driven_slope(problem, p, one.torque[n], one.motion[n]);
-    largest = std::max(largest, one.width(n) * std::abs(slope));
+    largest = std::max(largest, one.width(n) * std::abs(ode.jacobian(one.time[n], one.motion[n])));
   }
   return largest;
 }

@@ -11,8 +11,6 @@
 
 #include "flexspline/core/simulate.hpp"
 #include "flexspline/estimators/method.hpp"
-#include "torque_driven/driven_fit.hpp"
-#include "torque_driven/law.hpp"
 
 namespace flexspline::estimators {
 namespace {
