@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseLU>
+#include <Eigen/LU>
 
 namespace flexspline::estimators {
 namespace {
@@ -40,27 +40,51 @@ std::vector<double> CollocationMesh::packed(std::span<const double> p, const Ser
   return x;
 }
 
+// The first points of a recording hang together; every other one follows from those before it.
 std::vector<double> CollocationMesh::foreseen(std::span<const double> p,
                                               const Series& states) const {
+  constexpr std::size_t kFirst = DrivenNlp::kStencil - 1;
   const DrivenNlp nlp(problem_, meshes_);
   std::vector<double> x = packed(p, states);
-  const auto rows = static_cast<Eigen::Index>(nlp.constraints());
-  Eigen::VectorXd defect(rows);
-  nlp.constraint(x, {defect.data(), nlp.constraints()});
+  std::vector<double> change(nlp.constraints());
+  nlp.constraint(x, change);
   const SparsePattern pattern = nlp.jacobian_pattern();
   std::vector<double> values(pattern.size());
   nlp.jacobian(x, values);
-  std::vector<Eigen::Triplet<double>> of_motions;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const int column = pattern.column[k] - static_cast<int>(p.size());
-    if (column >= 0) of_motions.emplace_back(pattern.row[k], column, values[k]);
+  std::size_t entry = 0;
+  std::size_t row = 0;
+  // Calls take(column, value) for every motion in a row.
+  const auto each_in_row = [&](auto take) {
+    for (; entry < pattern.size() && pattern.row[entry] == static_cast<int>(row); ++entry) {
+      const auto column = static_cast<std::size_t>(pattern.column[entry]);
+      if (column >= p.size()) take(column - p.size(), values[entry]);
+    }
+  };
+  for (const DrivenMesh& mesh : meshes_) {
+    const std::size_t base = row;
+    Eigen::Matrix<double, kFirst, kFirst> together;
+    for (; row < base + kFirst; ++row) {
+      each_in_row([&](std::size_t column, double value) {
+        together(static_cast<Eigen::Index>(row - base), static_cast<Eigen::Index>(column - base)) =
+            value;
+      });
+    }
+    Eigen::Map<Eigen::Matrix<double, kFirst, 1>> first(&change[base]);
+    first = (-together.partialPivLu().solve(first)).eval();
+    for (; row < base + mesh.points() - 1; ++row) {
+      double sum = -change[row];
+      double own = 1.0;
+      each_in_row([&](std::size_t column, double value) {
+        if (column == row) {
+          own = value;
+        } else {
+          sum -= value * change[column];
+        }
+      });
+      change[row] = sum / own;
+    }
   }
-  Eigen::SparseMatrix<double> matrix(rows, rows);
-  matrix.setFromTriplets(of_motions.begin(), of_motions.end());
-  const Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::NaturalOrdering<int>> factor(matrix);
-  if (factor.info() != Eigen::Success) return x;
-  const Eigen::VectorXd change = factor.solve(-defect);
-  for (Eigen::Index k = 0; k < rows; ++k) x[p.size() + static_cast<std::size_t>(k)] += change[k];
+  for (std::size_t k = 0; k < change.size(); ++k) x[p.size() + k] += change[k];
   return x;
 }
 

@@ -27,6 +27,8 @@ std::vector<double> derivative_weights(std::span<const double> points, double at
 /// diagonal. Coefficients come first; constraint k belongs to motion k.
 class DrivenNlp final : public SparseNlp {
  public:
+  static constexpr std::size_t kStencil = 5;
+
   DrivenNlp(const DrivenProblem& problem, const std::vector<DrivenMesh>& meshes);
 
   std::size_t variables() const override { return parameters_ + points_.size(); }
@@ -42,7 +44,6 @@ class DrivenNlp final : public SparseNlp {
                std::span<double> values) const override;
 
  private:
-  static constexpr std::size_t kStencil = 5;
   struct Point {
     double width = 0.0;  ///< to the point before
     double torque = 0.0;
