@@ -146,12 +146,6 @@ Result<OdeSolution> collocation(const OdeLayout& layout, const OdeFitSettings& s
     return failure(ErrorCode::usage, "collocation needs second derivatives of the system's law",
                    "derive the system from OdeLaw, or fit by shooting");
   }
-  if (settings.weighting == Weighting::coloured) {
-    return failure(ErrorCode::usage,
-                   "collocation cannot weigh coloured noise: its innovations would tie every "
-                   "instant to all before it",
-                   "fit by shooting, or weigh each output by its own noise");
-  }
   if (settings.equation_error_start) {
     const auto start = equation_error_start(layout);
     auto solution = start ? collocate(layout, *system, *start, settings) : Result<OdeSolution>{};

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "ode_fit/collocation_nlp.hpp"
-#include "ode_fit/inequalities.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -47,8 +46,11 @@ SparsePattern CollocationNlp::jacobian_pattern() const {
       for (std::size_t k = 0; k < parameters_; ++k) pattern.add(row, k);
     }
   }
+  process_pattern(pattern);
   for (std::size_t i = 0; i < inequalities(); ++i) {
-    for (std::size_t k = 0; k < parameters_; ++k) pattern.add(laws() + i, k);
+    for (std::size_t k = 0; k < parameters_; ++k) {
+      pattern.add(laws() + processes_.size() + i, k);
+    }
   }
   return pattern;
 }
@@ -100,15 +102,8 @@ bool CollocationNlp::jacobian(std::span<const double> x, std::span<double> value
       }
     }
   }
-  if (inequalities() > 0) {
-    const auto p = parameters(x);
-    const Eigen::MatrixXd slopes = inequality_gradients(*layout_.inequalities, p);
-    for (std::size_t i = 0; i < inequalities(); ++i) {
-      for (std::size_t k = 0; k < parameters_; ++k) {
-        values[at++] = slopes(index(i), index(k)) * scale(k);
-      }
-    }
-  }
+  process_slopes(values.subspan(at));
+  inequality_slopes(x, values.last(inequalities() * parameters_));
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
@@ -134,6 +129,7 @@ SparsePattern CollocationNlp::hessian_pattern() const {
       for (std::size_t k = 0; k < parameters_; ++k) pattern.add(first + a, k);
     }
   }
+  process_curvature_pattern(pattern);
   return pattern;
 }
 
@@ -167,37 +163,18 @@ void CollocationNlp::add_law_curvature(std::span<const double> x, std::size_t no
 Eigen::MatrixXd CollocationNlp::reading_curvature(std::span<const double> x, const Reading& reading,
                                                   double factor) const {
   const auto& source = experiment(reading.experiment);
-  const auto y = read(x, reading);
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(index(states_), index(states_));
-  for (std::size_t o = 0; o < source.outputs(); ++o) {
-    if (!source.counts(reading.instant, o)) continue;
+  for (std::size_t t = reading.first_term; t < reading.last_term; ++t) {
+    const Term& term = terms_[t];
     Eigen::VectorXd slope(index(states_));
     for (std::size_t i = 0; i < states_; ++i) {
       const Source at = reading_source(reading, i);
-      slope[index(i)] = at.known() ? 0.0 : source.slope(o, i) * scale(at.unknown);
+      slope[index(i)] =
+          at.known() ? 0.0 : term.weight * source.slope(term.output, i) * scale(at.unknown);
     }
-    const double bend = layout_.loss.curvature(source.residual(reading.instant, o, y));
-    m += factor * bend * slope * slope.transpose();
+    m += factor * layout_.loss.curvature(residual(x, term)) * slope * slope.transpose();
   }
   return m;
-}
-
-void CollocationNlp::add_inequality_curvature(std::span<const double> x,
-                                              std::span<const double> lambda,
-                                              std::span<double> values) const {
-  const auto p = parameters(x);
-  std::vector<HyperDual> dual(p.begin(), p.end());
-  std::vector<HyperDual> g(inequalities());
-  for (std::size_t a = 0, at = 0; a < parameters_; ++a) {
-    dual[a].first = scale(a);
-    for (std::size_t b = 0; b <= a; ++b, ++at) {
-      dual[b].second = scale(b);
-      layout_.inequalities->values(std::span<const HyperDual>(dual), std::span(g));
-      dual[b].second = 0.0;
-      for (std::size_t i = 0; i < g.size(); ++i) values[at] += lambda[laws() + i] * g[i].mixed;
-    }
-    dual[a].first = 0.0;
-  }
 }
 
 bool CollocationNlp::hessian(std::span<const double> x, double factor,
@@ -236,6 +213,7 @@ bool CollocationNlp::hessian(std::span<const double> x, double factor,
     add_triangle(m.bottomRightCorner(index(parameters_), index(parameters_)), parameters_, values);
   }
   if (inequalities() > 0) add_inequality_curvature(x, lambda, values);
+  process_curvature(x, factor, values.subspan(at + nodes_.size() * per_node));
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 

@@ -33,9 +33,10 @@ CollocationNlp::CollocationNlp(const OdeLayout& layout, const TwiceOdeSystem& sy
           {e, k % kStages, element == 0, mesh.time(element, k % kStages), mesh.width(element)});
     }
   }
+  add_terms();
 }
 
-std::size_t CollocationNlp::variables() const { return unknown_count_ + laws(); }
+std::size_t CollocationNlp::variables() const { return first_process() + processes_.size(); }
 
 void CollocationNlp::bounds(std::span<double> lower, std::span<double> upper) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -48,6 +49,7 @@ void CollocationNlp::bounds(std::span<double> lower, std::span<double> upper) co
 }
 
 double CollocationNlp::scale(std::size_t variable) const {
+  if (variable >= first_process()) return 1.0;
   return variable < unknown_count_ ? layout_.unknowns[variable].scale
                                    : layout_.state_scale[(variable - unknown_count_) % states_];
 }
@@ -79,32 +81,22 @@ std::vector<double> CollocationNlp::arguments(std::span<const double> x, std::si
 
 bool CollocationNlp::objective(std::span<const double> x, double& f) const {
   f = 0.0;
-  for (const auto& reading : readings_) {
-    const auto& source = experiment(reading.experiment);
-    const auto y = read(x, reading);
-    for (std::size_t o = 0; o < source.outputs(); ++o) {
-      if (source.counts(reading.instant, o)) {
-        f += layout_.loss.value(source.residual(reading.instant, o, y));
-      }
-    }
-  }
+  for (const Term& term : terms_) f += layout_.loss.value(residual(x, term));
   return std::isfinite(f);
 }
 
 bool CollocationNlp::gradient(std::span<const double> x, std::span<double> g) const {
   std::ranges::fill(g, 0.0);
-  for (const auto& reading : readings_) {
-    const auto& source = experiment(reading.experiment);
-    const auto y = read(x, reading);
-    for (std::size_t o = 0; o < source.outputs(); ++o) {
-      if (!source.counts(reading.instant, o)) continue;
-      const double influence = layout_.loss.influence(source.residual(reading.instant, o, y));
-      for (std::size_t i = 0; i < states_; ++i) {
-        const Source at = reading_source(reading, i);
-        if (at.known()) continue;
-        g[at.unknown] += influence * source.slope(o, i) * scale(at.unknown);
-      }
+  for (const Term& term : terms_) {
+    const Reading& reading = readings_[term.reading];
+    const double influence = term.weight * layout_.loss.influence(residual(x, term));
+    for (std::size_t i = 0; i < states_; ++i) {
+      const Source at = reading_source(reading, i);
+      if (at.known()) continue;
+      g[at.unknown] +=
+          influence * experiment(reading.experiment).slope(term.output, i) * scale(at.unknown);
     }
+    if (term.process != Term::kNone) g[term.process] -= influence;
   }
   return all_finite(g);
 }
@@ -125,15 +117,17 @@ bool CollocationNlp::constraint(std::span<const double> x, std::span<double> c) 
       c[n * states_ + i] = (slope - node.width * rate[i]) / layout_.state_scale[i];
     }
   }
-  if (inequalities() > 0) layout_.inequalities->values(parameters(x), c.subspan(laws()));
+  if (inequalities() > 0) layout_.inequalities->values(parameters(x), c.last(inequalities()));
+  process_rows(x, c.subspan(laws(), processes_.size()));
   return all_finite(c);
 }
 
 void CollocationNlp::constraint_bounds(std::span<double> lower, std::span<double> upper) const {
   SparseNlp::constraint_bounds(lower, upper);
   for (std::size_t k = 0; k < inequalities(); ++k) {
-    lower[laws() + k] = layout_.inequalities->lower(k);
-    upper[laws() + k] = layout_.inequalities->upper(k);
+    const std::size_t row = laws() + processes_.size() + k;
+    lower[row] = layout_.inequalities->lower(k);
+    upper[row] = layout_.inequalities->upper(k);
   }
 }
 
@@ -148,6 +142,7 @@ std::vector<double> CollocationNlp::pack(std::span<const double> q,
   std::vector<double> x(q.begin(), q.end());
   for (const auto& each : states) x.insert(x.end(), each.stage.begin(), each.stage.end());
   for (std::size_t v = 0; v < x.size(); ++v) x[v] /= scale(v);
+  x.resize(variables(), 0.0);
   return x;
 }
 

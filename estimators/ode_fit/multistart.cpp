@@ -38,15 +38,29 @@ OdeFitProblem started(const OdeFitProblem& problem, const MultistartSettings& se
   return moved;
 }
 
+// The best of those that converged, if any did.
+const OdeFit& best_of(const std::vector<OdeFit>& fits) {
+  const auto order = [](const OdeFit& fit) {
+    return std::pair(fit.termination != Termination::converged, fit.cost);
+  };
+  return *std::ranges::min_element(fits, {}, order);
+}
+
+int at_best(const std::vector<OdeFit>& fits, double same_cost) {
+  if (fits.empty()) return 0;
+  const double most = best_of(fits).cost * (1.0 + same_cost);
+  return static_cast<int>(std::ranges::count_if(fits, [&](const OdeFit& fit) {
+    return fit.termination == Termination::converged && fit.cost <= most;
+  }));
+}
+
 void count(const MultistartSettings& settings, const std::vector<OdeFit>& fits,
            Multistart& result) {
-  const double most = result.best.cost * (1.0 + settings.same_cost);
   for (const auto& fit : fits) {
     result.costs.push_back(fit.cost);
-    if (fit.termination != Termination::converged) continue;
-    ++result.converged;
-    result.at_best += fit.cost <= most;
+    result.converged += fit.termination == Termination::converged;
   }
+  result.at_best = at_best(fits, settings.same_cost);
   using Binomial = boost::math::binomial_distribution<>;
   const double n = result.starts;
   const double k = result.at_best;
@@ -62,14 +76,6 @@ void count(const MultistartSettings& settings, const std::vector<OdeFit>& fits,
       100.0 * result.rate_upper);
 }
 
-// The best of those that converged, if any did.
-const OdeFit& best_of(const std::vector<OdeFit>& fits) {
-  const auto order = [](const OdeFit& fit) {
-    return std::pair(fit.termination != Termination::converged, fit.cost);
-  };
-  return *std::ranges::min_element(fits, {}, order);
-}
-
 }  // namespace
 
 Result<Multistart> fit_ode_from_many(const OdeFitProblem& problem, OdeFitMethod method,
@@ -83,10 +89,12 @@ Result<Multistart> fit_ode_from_many(const OdeFitProblem& problem, OdeFitMethod 
   }
   std::vector<OdeFit> fits;
   std::optional<Error> last;
-  for (int start = 0; start < multistart.starts; ++start) {
+  int made = 0;
+  for (; made < multistart.starts; ++made) {
+    if (multistart.enough > 0 && at_best(fits, multistart.same_cost) >= multistart.enough) break;
     OdeFitSettings own = settings;
-    if (start > 0) own.equation_error_start = false;
-    auto fit = fit_ode(started(problem, multistart, start), method, own);
+    if (made > 0) own.equation_error_start = false;
+    auto fit = fit_ode(started(problem, multistart, made), method, own);
     if (fit) {
       fits.push_back(std::move(*fit));
     } else {
@@ -95,8 +103,8 @@ Result<Multistart> fit_ode_from_many(const OdeFitProblem& problem, OdeFitMethod 
     }
   }
   if (fits.empty()) return tl::unexpected(in_context(*last, "every start"));
-  Multistart result{.best = best_of(fits), .starts = multistart.starts};
-  result.failed = multistart.starts - static_cast<int>(fits.size());
+  Multistart result{.best = best_of(fits), .starts = made};
+  result.failed = made - static_cast<int>(fits.size());
   count(multistart, fits, result);
   result.best.notes.push_back(result.says);
   if (result.at_best < 2 && result.best.termination == Termination::converged) {

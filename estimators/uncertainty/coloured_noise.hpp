@@ -33,15 +33,16 @@ class WhiteningFilter {
   std::size_t size() const { return steps_.size(); }
   /// In place, every stride-th value of the series.
   void whiten(std::span<double> series, std::size_t stride = 1) const;
+  struct Step {
+    double transition;  ///< of the process since the last instant
+    double update;      ///< share of an innovation that goes into it
+    double weight;      ///< 1 / standard deviation of the innovation
+  };
+  const Step& step(std::size_t k) const { return steps_[k]; }
   /// Sum of ln of the innovations' variances.
   double log_variance() const;
 
  private:
-  struct Step {
-    double transition;  // of the process since the last instant
-    double update;      // share of an innovation that goes into it
-    double weight;      // 1 / standard deviation of the innovation
-  };
   std::vector<Step> steps_;
 };
 

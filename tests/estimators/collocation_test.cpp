@@ -113,8 +113,41 @@ Derivatives derivatives(const CollocationNlp& nlp, std::span<const double> x) {
   return d;
 }
 
-TEST(CollocationNlp, DerivativesAgreeWithDifferences) {
-  const Case c = methanol_with_free_start();
+// The same with everything that may be added: coloured noise, a robust loss, inequalities.
+class Product final : public OdeInequalityLaw<Product> {
+ public:
+  std::size_t count() const override { return 2; }
+  std::string name(std::size_t) const override { return "product"; }
+  double lower(std::size_t) const override { return 0.0; }
+  double upper(std::size_t) const override { return 1.0; }
+  template <class S>
+  void functions(std::span<const S> p, std::span<S> g) const {
+    g[0] = S(p[0] * S(p[1] * p[2]));
+    g[1] = S(p[3] * p[3]);
+  }
+};
+
+Case with_everything() {
+  Case c = methanol_with_free_start();
+  c.layout.loss = {Loss::cauchy, 0.4};
+  c.layout.inequalities = std::make_shared<Product>();
+  auto& experiment = c.layout.experiments[0];
+  for (std::size_t o = 0; o < experiment.outputs(); ++o) {
+    experiment.whitening.emplace_back(ColouredNoise{1.0, 0.7, 0.1}, experiment.source.times);
+  }
+  return c;
+}
+
+class CollocationDerivatives : public ::testing::TestWithParam<Case (*)()> {};
+
+INSTANTIATE_TEST_SUITE_P(CollocationNlp, CollocationDerivatives,
+                         ::testing::Values(methanol_with_free_start, with_everything),
+                         [](const auto& each) {
+                           return each.index == 0 ? std::string("plain") : "with_everything";
+                         });
+
+TEST_P(CollocationDerivatives, AgreeWithDifferences) {
+  const Case c = GetParam()();
   const auto* system = dynamic_cast<const TwiceOdeSystem*>(c.layout.system.get());
   const CollocationNlp nlp(c.layout, *system, c.meshes);
   std::vector<double> x(nlp.variables());

@@ -33,7 +33,7 @@ void count(const FunctionBand& band, const std::function<double(double)>& truth,
 // Of 60 independent intervals at 95 %, 53 to 60 hold in 99 of 100 studies (binomial), that is 88 %
 // or more; the five points of a replicate are not independent, and the splines add their own bias.
 // Below 0.1 of the range g^-1 is counted on its own: there noise puts its first slope on the floor
-// that keeps it increasing, and a band that counted that slope as known would hold 70 %.
+// that keeps it increasing, and a band that counted that slope as known would be too narrow.
 TEST(Coverage, OfTheBandsOfFAndGAndH) {
   const auto gear = gear_with_even_h();
   for (std::string simulate : {"torsion", "torque"}) {

@@ -70,6 +70,14 @@ TEST(Multistart, TellsItsRateOfConvergence) {
   EXPECT_EQ(found->best.termination, Termination::converged);
 }
 
+TEST(Multistart, EndsOnceEnoughStartsAgree) {
+  const auto found = fit_ode_from_many(decay(0.01), OdeFitMethod::single_shooting, {},
+                                       {.starts = 8, .enough = 2});
+  ASSERT_TRUE(found) << found.error().message();
+  EXPECT_EQ(found->starts, 2);
+  EXPECT_EQ(found->at_best, 2);
+}
+
 // y = sin(k t) sampled once: minima at every k with sin k = 0.5, no two starts at one of them.
 class Turn final : public OdeLaw<Turn> {
  public:

@@ -48,10 +48,10 @@ inline OdeFitProblem gear_recordings(const std::vector<double>& truth, double no
   OdeFitProblem problem;
   problem.system = std::make_shared<PolynomialTorsion>(kGearShape, Recordings::torque);
   problem.parameters = {{.name = "f1", .start = 1.0},
-                        {.name = "f2", .start = 0.0},
+                        {.name = "f2", .start = 0.0, .scale = 0.3},
                         {.name = "g1", .start = 2.0},
                         {.name = "g2", .start = 0.0},
-                        {.name = "h1", .start = 0.0}};
+                        {.name = "h1", .start = 0.0, .scale = 0.3}};
   problem.state_scale = {1.0};
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal(0.0, noise);

@@ -8,6 +8,7 @@ namespace flexspline::estimators {
 
 struct MultistartSettings {
   int starts = 10;  ///< the given one and others drawn about it
+  int enough = 0;   ///< starts that agree on the best cost and so end the search; 0: all are made
   std::uint64_t seed = 1;
   double spread = 4.0;      ///< values are drawn within this factor (sign kept), and where they are
                             ///< zero within as many scales

@@ -68,7 +68,7 @@ std::string_view name_of(Loss loss);
 /// How residuals are weighted. given: by the sigmas of the description. per_output: every output's
 /// own noise is estimated from what it leaves, over again until it stays. coloured: every output's
 /// noise is a first-order process beside white noise, estimated likewise, and its innovations are
-/// minimised; by shooting alone, and with the squared loss alone.
+/// minimised; with the squared loss alone.
 enum class Weighting { given, per_output, coloured };
 
 struct OdeFitSettings {
@@ -121,8 +121,8 @@ struct OdeFit {
 /// and bootstrap) and leave the covariance and the count of parameters; an active inequality takes
 /// its direction out of both.
 /// Errors: bad_data (names, starts, bounds, times, measurements that do not fit the description),
-/// usage (what a method cannot do: collocation of a system without second derivatives or with
-/// coloured noise, shooting with inequalities), numerics (the start cannot be
+/// usage (what a method cannot do: collocation of a system without second derivatives,
+/// shooting with inequalities), numerics (the start cannot be
 /// integrated, or the solver gives up).
 Result<OdeFit> fit_ode(const OdeFitProblem& problem, OdeFitMethod method,
                        const OdeFitSettings& settings = {});
