@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solvers/nonnegative.hpp"
+#include "flexspline/estimators/bounded_least_squares.hpp"
 #include "torsion/torque_residuals.hpp"
 
 namespace flexspline::estimators {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
+#include "flexspline/estimators/bounded_least_squares.hpp"
 #include "solvers/least_squares.hpp"
-#include "solvers/nonnegative.hpp"
 
 namespace flexspline::estimators {
 namespace {

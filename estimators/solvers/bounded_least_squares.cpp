@@ -1,4 +1,4 @@
-#include "solvers/nonnegative.hpp"
+#include "flexspline/estimators/bounded_least_squares.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "flexspline/core/error.hpp"
+
+namespace flexspline::estimators {
+
+/// Rows of a separable problem that share their columns: target - columns b(index), all weighted.
+struct SeparableBlock {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd target;
+  std::vector<Eigen::Index> index;  ///< position in b of each column
+};
+
+/// A parameter that enters non-linearly; held where its bounds are one.
+struct ShapeBound {
+  double start = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// min over q in its bounds and b >= lower of sum_blocks ||y(q) - X(q) b||^2 (Golub and Pereyra
+/// 1973, with bounds on b). Blocks may come and go with q, b may not.
+struct SeparableProblem {
+  std::function<std::vector<SeparableBlock>(std::span<const double> q)> assemble;
+  Eigen::VectorXd lower;  ///< of b; -infinity: free
+  std::vector<ShapeBound> shapes;
+};
+
+struct SeparableFit {
+  std::vector<double> q;
+  Eigen::VectorXd b;
+  std::vector<Eigen::VectorXd> residual;  ///< by block, weighted: target - columns b
+  double sum_of_squares = 0.0;
+  int evaluations = 0;
+};
+
+/// b alone, at shapes given.
+SeparableFit solve_linear(const SeparableProblem& problem, std::span<const double> q);
+
+/// Shapes by Levenberg and Marquardt on the projected residual, its Jacobian by differences of
+/// 1e-4 of each shape's range; at most that many steps. Local: from the start given.
+/// Errors: numerics where the start gives no numbers.
+Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps);
+
+}  // namespace flexspline::estimators

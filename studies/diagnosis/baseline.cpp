@@ -1,0 +1,130 @@
+#include "diagnosis/baseline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "flexspline/core/cubic_basis.hpp"
+#include "flexspline/core/integrated_basis.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int kElasticKnots = 7;
+constexpr int kDissipativeKnots = 11;
+constexpr std::size_t kTravelIntervals = 24;
+constexpr double kFree = -std::numeric_limits<double>::infinity();
+
+std::vector<double> even_knots(int count) {
+  std::vector<double> knots;
+  for (int k = 1; k <= count; ++k) knots.push_back(k / static_cast<double>(count + 1));
+  return knots;
+}
+
+// From the slowest tenth of the recordings to the fastest: g^-1 is steepest near rest.
+std::vector<double> rate_knots(const Frame& frame) {
+  const double slow = std::clamp(frame.slow_rate / frame.rate_range, 1e-3, 0.1);
+  std::vector<double> knots;
+  for (int k = 0; k < kDissipativeKnots; ++k) {
+    knots.push_back(slow * std::pow(0.75 / slow, k / static_cast<double>(kDissipativeKnots - 1)));
+  }
+  return knots;
+}
+
+// sgn(x) I_i(|x|) for every integrated spline i.
+void odd_columns(const IntegratedBasis& basis, const ArrayXd& x, Eigen::Ref<MatrixXd> out) {
+  std::vector<double> value(basis.size());
+  for (Index r = 0; r < x.size(); ++r) {
+    basis.values(std::abs(x[r]), value);
+    const double sign = x[r] < 0.0 ? -1.0 : 1.0;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      out(r, static_cast<Index>(k)) = sign * value[k];
+    }
+  }
+}
+
+ArrayXd modulation(const Frame& frame, std::span<const double> shape) {
+  const ArrayXd x2 = (frame.torsion / frame.torsion_range).square();
+  return (shape[0] * x2 + shape[1] * x2.square()).max(-2.0).min(2.0).exp();
+}
+
+BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) {
+  const IntegratedBasis elastic(even_knots(kElasticKnots));
+  const IntegratedBasis dissipative(rate_knots(frame));
+  const bool offset = frame.rig == Rig::specimen;
+  const Index f = static_cast<Index>(elastic.size());
+  const Index g = static_cast<Index>(dissipative.size());
+  BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
+                    Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g};
+  odd_columns(elastic, frame.torsion / frame.torsion_range, c.columns.leftCols(f));
+  odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
+              c.columns.middleCols(f, g));
+  if (offset) {
+    c.columns.col(f + g).setOnes();
+    c.lower[f + g] = kFree;
+  }
+  return c;
+}
+
+BaselineColumns travelling_columns(const Frame& frame, std::span<const double> shape) {
+  const double low = frame.torsion.minCoeff();
+  const double high = frame.torsion.maxCoeff();
+  const CubicBasis position(low, high, kTravelIntervals);
+  const Index f = static_cast<Index>(position.size());
+  BaselineColumns c{MatrixXd::Zero(frame.rows(), f + 2), Eigen::VectorXd::Zero(f + 2), f, 2};
+  c.lower.head(f).setConstant(kFree);
+  for (Index r = 0; r < frame.rows(); ++r) {
+    const auto local = position.at(frame.torsion[r]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
+    }
+  }
+  const double width = coulomb_width(frame, Equation::torsion, shape);
+  c.columns.col(f) = (frame.torsion_rate / width).tanh();
+  c.columns.col(f + 1) = frame.torsion_rate / frame.rate_range;
+  return c;
+}
+
+BaselineColumns motor_columns(const Frame& frame, std::span<const double> shape) {
+  BaselineColumns c{MatrixXd(frame.rows(), 2), Eigen::VectorXd::Zero(2), 0, 2};
+  c.columns.col(0) = frame.motor_speed;
+  c.columns.col(1) = (frame.motor_speed / coulomb_width(frame, Equation::motor, shape)).tanh();
+  return c;
+}
+
+}  // namespace
+
+double coulomb_width(const Frame& frame, Equation equation, std::span<const double> shape) {
+  if (equation == Equation::motor || frame.travels) return std::exp(shape[0]);
+  return std::max(frame.slow_rate, 1e-3 * frame.rate_range);
+}
+
+ArrayXd target_of(const Frame& frame, Equation equation) {
+  switch (equation) {
+    case Equation::torsion:
+      return frame.torque;
+    case Equation::load:
+      return frame.torque - frame.load_inertia * frame.load_acceleration;
+    case Equation::motor:
+      break;
+  }
+  return frame.motor_torque - frame.motor_inertia * frame.motor_acceleration -
+         frame.torque / frame.ratio;
+}
+
+BaselineColumns baseline_columns(const Frame& frame, Equation equation,
+                                 std::span<const double> shape) {
+  if (equation == Equation::torsion) {
+    return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
+  }
+  if (equation == Equation::load) return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1};
+  return motor_columns(frame, shape);
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "diagnosis/frame.hpp"
+
+namespace flexspline::studies {
+
+/// Columns of the baseline's linear parameters in one equation, and their lower bounds.
+struct BaselineColumns {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd lower;
+  Eigen::Index elastic = 0;      ///< the first columns: f
+  Eigen::Index dissipative = 0;  ///< the next: g^-1
+};
+
+/// What the equation's own output is, measured: tau, tau - J2 theta_l'', tau_m - J1 theta_m'' -
+/// tau/N.
+Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
+
+BaselineColumns baseline_columns(const Frame& frame, Equation equation,
+                                 std::span<const double> shape);
+
+/// Rate below which the dry friction of a travelling specimen, or the motor, is rounded off.
+double coulomb_width(const Frame& frame, Equation equation, std::span<const double> shape);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,21 @@
+#include "diagnosis/cause.hpp"
+
+#include <algorithm>
+
+namespace flexspline::studies {
+
+std::vector<const CauseForm*> forms_on(const CauseRow& row, const Frame& frame) {
+  std::vector<const CauseForm*> list;
+  for (const CauseForm& form : row.forms) {
+    const bool exists = std::ranges::count(form.rigs, frame.rig) > 0;
+    const bool seen =
+        std::ranges::any_of(form.at, [&](Equation equation) { return frame.has(equation); });
+    const bool fits = !form.travels_only || frame.travels || frame.rig != Rig::specimen;
+    if (exists && seen && fits) list.push_back(&form);
+  }
+  return list;
+}
+
+Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, double width) { return (x / width).tanh(); }
+
+}  // namespace flexspline::studies

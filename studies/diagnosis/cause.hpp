@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/frame.hpp"
+
+namespace flexspline::studies {
+
+/// A parameter of a cause that enters non-linearly, with its range on these recordings.
+struct Shape {
+  std::string_view name;
+  std::string_view unit;  ///< SI
+  double lower = 0.0;
+  double upper = 1.0;
+  int grid = 5;  ///< starts tried, even in the logarithm where that is how it is searched
+  bool logarithmic = true;
+  bool discrete = false;  ///< lower, lower + 1, ... upper; tried, not refined
+};
+
+/// What the last fit knows of the baseline's laws along the rows. Nm at the equation's shaft.
+struct Reference {
+  Eigen::ArrayXd elastic;             ///< f(phi)
+  Eigen::ArrayXd dissipative;         ///< g^-1(phi'/h)
+  double motor_coulomb_speed = 1.0;   ///< rad/s at which the motor's dry friction saturates
+  double torsion_coulomb_rate = 1.0;  ///< rad/s (m/s), the same across the transmission
+};
+
+using Columns = std::vector<Eigen::ArrayXd>;
+
+/// One way in which a cause may act. Its contribution is sum_k a_k column_k, the a_k common to all
+/// equations it acts on, each an addition to what the equation predicts; or a change of the frame
+/// (its angles, its torque) by the shapes alone.
+struct CauseForm {
+  std::string_view equation;  ///< in words
+  std::vector<Rig> rigs;
+  std::vector<Equation> at;
+  std::vector<Shape> (*shapes)(const Frame&) = nullptr;
+  Columns (*columns)(Equation, const Frame&, const Reference&, std::span<const double>) = nullptr;
+  void (*transform)(Frame&, std::span<const double>) = nullptr;
+  /// Start of the shapes of a transform, from the recordings; without it the grid is searched.
+  std::vector<double> (*start)(const Frame&) = nullptr;
+  bool nonnegative = false;   ///< a_k >= 0
+  bool travels_only = false;  ///< on a specimen: only where an angle travels
+};
+
+/// A row of the catalogue of causes: an id of flexspline-diagnosis/1 and the ways it may act.
+struct CauseRow {
+  std::string_view id;
+  std::string_view coordinate;
+  std::vector<CauseForm> forms;
+};
+
+/// Every cause, one file each in studies/diagnosis/causes.
+std::span<const CauseRow> causes();
+
+/// The forms of a row that the frame's rig and equations allow.
+std::vector<const CauseForm*> forms_on(const CauseRow& row, const Frame& frame);
+
+/// x/|x| rounded off below the width.
+Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, double width);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,85 @@
+#include "diagnosis/cause_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "flexspline/core/stop_operator.hpp"
+
+namespace flexspline::studies {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+Columns sine_pair(const ArrayXd& x, double order, const ArrayXd& factor) {
+  return {(order * x).sin() * factor, (order * x).cos() * factor};
+}
+
+Columns sine_pair(const ArrayXd& x, double order) { return {(order * x).sin(), (order * x).cos()}; }
+
+Columns of_torque_signal(Equation equation, const Frame& frame, Columns terms) {
+  if (equation != Equation::motor) return terms;
+  for (ArrayXd& term : terms) term /= -frame.ratio;
+  return terms;
+}
+
+Columns stop_operators(const Frame& frame, const ArrayXd& motion,
+                       const std::vector<double>& yields) {
+  Columns columns;
+  for (double yield : yields) {
+    ArrayXd column(frame.rows());
+    for (const Segment& s : frame.segments) {
+      StopOperator stop(yield);
+      column[s.first] = 0.0;
+      for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+        column[r] = stop.advance(motion[r] - motion[r - 1]);
+      }
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::vector<double> geometric(double first, double last, int count) {
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k) {
+    values.push_back(first * std::pow(last / first, k / static_cast<double>(count - 1)));
+  }
+  return values;
+}
+
+double fastest(const Frame& frame) {
+  const ArrayXd& speed = frame.rig == Rig::free ? frame.load_speed : frame.torsion_rate;
+  const ArrayXd& acceleration =
+      frame.rig == Rig::free ? frame.load_acceleration : frame.torsion_acceleration;
+  return (acceleration.abs() * frame.usable).maxCoeff() / (speed.abs() * frame.usable).maxCoeff();
+}
+
+ArrayXd cold_share(const Frame& frame, double time_constant) {
+  return (-frame.clock / time_constant).exp();
+}
+
+std::vector<double> periodic_torsion(const Frame& frame, const ArrayXd& angle,
+                                     const std::vector<double>& orders) {
+  const auto scaled = [](const ArrayXd& x) {
+    return (x / std::max(x.abs().maxCoeff(), 1e-300)).eval();
+  };
+  const ArrayXd load = scaled(frame.smooth_torque);
+  Columns columns = {load, load.cube(), scaled(frame.torque_rate), scaled(frame.load_speed)};
+  const std::size_t first = columns.size();
+  for (double order : orders) {
+    for (ArrayXd& column : sine_pair(angle, order)) columns.push_back(std::move(column));
+  }
+  Eigen::MatrixXd rows(frame.rows(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    rows.col(static_cast<Index>(k)) = columns[k] * frame.usable;
+  }
+  const Eigen::VectorXd b =
+      rows.householderQr().solve((frame.torsion * frame.usable).matrix().eval());
+  std::vector<double> starts;
+  for (std::size_t k = first; k < columns.size(); ++k) starts.push_back(-b[static_cast<Index>(k)]);
+  return starts;
+}
+
+}  // namespace flexspline::studies

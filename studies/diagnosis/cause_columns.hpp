@@ -1,0 +1,37 @@
+#pragma once
+
+#include "diagnosis/cause.hpp"
+
+namespace flexspline::studies {
+
+inline const std::vector<Rig> kDrives = {Rig::locked, Rig::free};
+inline const std::vector<Rig> kAnyRig = {Rig::locked, Rig::free, Rig::specimen};
+
+/// sin(k x) and cos(k x), each times a factor.
+Columns sine_pair(const Eigen::ArrayXd& x, double order, const Eigen::ArrayXd& factor);
+Columns sine_pair(const Eigen::ArrayXd& x, double order);
+
+/// What a term of the torque sensor adds to the equations that use its signal: tau in the torsion
+/// and the load equation, -tau/N in the motor's.
+Columns of_torque_signal(Equation equation, const Frame& frame, Columns terms);
+
+/// Stop operators (elastic-plastic elements of unit stiffness) along every recording, unloaded at
+/// its start.
+Columns stop_operators(const Frame& frame, const Eigen::ArrayXd& motion,
+                       const std::vector<double>& yields);
+
+/// count values from first to last, even in the logarithm.
+std::vector<double> geometric(double first, double last, int count);
+
+/// Largest angular frequency of the motion: its largest acceleration over its largest speed, 1/s.
+double fastest(const Frame& frame);
+
+/// Fraction of what warms up that is left, exp(-clock/T).
+Eigen::ArrayXd cold_share(const Frame& frame, double time_constant);
+
+/// What to add to the torsion, a_k sin(k x) + b_k cos(k x) by order, so that it follows the torque:
+/// by regression of the torsion on torque, its rate and cube, the load's speed and the turns.
+std::vector<double> periodic_torsion(const Frame& frame, const Eigen::ArrayXd& angle,
+                                     const std::vector<double>& orders);
+
+}  // namespace flexspline::studies

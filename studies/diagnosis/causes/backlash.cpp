@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+constexpr double kRounding = 0.1;  // of the gap
+
+std::vector<Shape> gap(const Frame& f) {
+  return {{.name = "half_gap",
+           .unit = "rad",
+           .lower = 0.01 * f.torsion_range,
+           .upper = 0.7 * f.torsion_range,
+           .grid = 8}};
+}
+
+ArrayXd wound(const ArrayXd& phi, double b) {
+  const double w2 = kRounding * kRounding * b * b;
+  return phi - 0.5 * (((phi + b).square() + w2).sqrt() - ((phi - b).square() + w2).sqrt());
+}
+
+ArrayXd wound_slope(const ArrayXd& phi, double b) {
+  const double w2 = kRounding * kRounding * b * b;
+  return 1.0 - 0.5 * ((phi + b) / ((phi + b).square() + w2).sqrt() -
+                      (phi - b) / ((phi - b).square() + w2).sqrt());
+}
+
+void spring_alone(Frame& f, Values shape) { f.torsion = wound(f.torsion, shape[0]); }
+
+void whole_gear(Frame& f, Values shape) {
+  f.torsion_rate *= wound_slope(f.torsion, shape[0]);
+  f.torsion = wound(f.torsion, shape[0]);
+}
+
+// The gap opens again at every reversal: what is driven stands still until it is crossed.
+void after_reversal(Frame& f, Values shape) {
+  for (const Segment& s : f.segments) {
+    double driven = f.torsion[s.first];
+    for (Eigen::Index r = s.first; r < s.first + s.count; ++r) {
+      const double lead = (f.torsion[r] - driven) / shape[0];
+      const double engaged = std::clamp((std::abs(lead) - 1.0) / kRounding + 1.0, 0.0, 1.0);
+      const bool pushes = lead * f.torsion_rate[r] > 0.0;
+      if (std::abs(lead) > 1.0) driven = f.torsion[r] - std::copysign(shape[0], lead);
+      f.torsion_rate[r] *= pushes ? engaged : 0.0;
+      f.torsion[r] = driven;
+    }
+  }
+}
+
+}  // namespace
+
+CauseRow describe_backlash() {
+  const std::vector<Equation> at = {Equation::torsion};
+  return {.id = "backlash",
+          .coordinate = "torsion",
+          .forms = {{.equation = "f(phi_e), phi_e = phi - clamp(phi, -b, b)",
+                     .rigs = kAnyRig,
+                     .at = at,
+                     .shapes = gap,
+                     .transform = spring_alone},
+                    {.equation = "f(phi_e) + g^-1(phi_e'/h), phi_e = phi - clamp(phi, -b, b)",
+                     .rigs = kAnyRig,
+                     .at = at,
+                     .shapes = gap,
+                     .transform = whole_gear},
+                    {.equation = "f(p) + g^-1(p'/h), p the play of phi by b on either side",
+                     .rigs = {Rig::specimen},
+                     .at = at,
+                     .shapes = gap,
+                     .transform = after_reversal}}};
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,41 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+std::vector<Shape> amplitudes(const Frame& f) {
+  const double most = 0.5 * f.torsion_range;
+  return {{.name = "sine", .unit = "rad", .lower = -most, .upper = most, .logarithmic = false},
+          {.name = "cosine", .unit = "rad", .lower = -most, .upper = most, .logarithmic = false}};
+}
+
+// theta_l is less than measured by e = a sin theta_l + b cos theta_l.
+void runout(Frame& f, Values shape) {
+  const ArrayXd s = f.load_angle.sin();
+  const ArrayXd c = f.load_angle.cos();
+  const ArrayXd first = shape[0] * c - shape[1] * s;
+  f.torsion += shape[0] * s + shape[1] * c;
+  f.torsion_rate += f.load_speed * first;
+  f.load_acceleration -=
+      f.load_acceleration * first - f.load_speed.square() * (shape[0] * s + shape[1] * c);
+}
+
+std::vector<double> start(const Frame& f) { return periodic_torsion(f, f.load_angle, {1.0}); }
+
+}  // namespace
+
+CauseRow describe_encoder_eccentricity() {
+  return {.id = "encoder_eccentricity",
+          .coordinate = "load_angle",
+          .forms = {{.equation = "theta_l,measured = theta_l + e sin(theta_l + p)",
+                     .rigs = {Rig::free},
+                     .at = {Equation::torsion, Equation::load},
+                     .shapes = amplitudes,
+                     .transform = runout,
+                     .start = start}}};
+}
+
+}  // namespace flexspline::studies

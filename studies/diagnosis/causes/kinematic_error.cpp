@@ -1,0 +1,66 @@
+#include <array>
+
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+constexpr std::array kOrders = {2.0, 4.0, 1.0};
+
+std::vector<Shape> amplitudes(const Frame& f) {
+  const double most = 0.5 * f.torsion_range;
+  std::vector<Shape> shapes;
+  for (std::string_view name : {"sine_2", "cosine_2", "sine_4", "cosine_4", "sine_1", "cosine_1"}) {
+    shapes.push_back(
+        {.name = name, .unit = "rad", .lower = -most, .upper = most, .logarithmic = false});
+  }
+  return shapes;
+}
+
+// phi += sum_k a_k sin(k theta_m) + b_k cos(k theta_m), and its rate.
+void error(Frame& f, Values shape) {
+  for (std::size_t i = 0; i < kOrders.size(); ++i) {
+    const double k = kOrders[i];
+    const ArrayXd s = (k * f.motor_angle).sin();
+    const ArrayXd c = (k * f.motor_angle).cos();
+    f.torsion += shape[2 * i] * s + shape[2 * i + 1] * c;
+    f.torsion_rate += k * f.motor_speed * (shape[2 * i] * c - shape[2 * i + 1] * s);
+  }
+}
+
+std::vector<double> start(const Frame& f) {
+  return periodic_torsion(f, f.motor_angle, {kOrders.begin(), kOrders.end()});
+}
+
+std::vector<Shape> turns(const Frame&) {
+  return {{.name = "order", .unit = "1", .lower = 1.0, .upper = 4.0, .discrete = true}};
+}
+
+// A joint whose torsion is not measured shows the torque that the error winds up.
+Columns torque_wound_up(Equation, const Frame& f, const Reference&, Values shape) {
+  return sine_pair(f.motor_angle, shape[0]);
+}
+
+}  // namespace
+
+CauseRow describe_kinematic_error() {
+  return {.id = "kinematic_error",
+          .coordinate = "motor_angle",
+          .forms = {{.equation = "phi = theta_m/N - theta_l + sum_k e_k sin(k theta_m + p_k)",
+                     .rigs = {Rig::free},
+                     .at = {Equation::torsion},
+                     .shapes = amplitudes,
+                     .transform = error,
+                     .start = start},
+                    {.equation = "tau += a sin k N q + b cos k N q",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = turns,
+                     .columns = torque_wound_up,
+                     .travels_only = true}}};
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,38 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+std::vector<Shape> turns(const Frame&) {
+  return {{.name = "order", .unit = "1", .lower = 1.0, .upper = 36.0, .discrete = true}};
+}
+
+Columns ripple(Equation, const Frame& f, const Reference&, Values shape) {
+  return sine_pair(f.motor_angle, shape[0]);
+}
+
+Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values shape) {
+  return sine_pair(f.motor_angle, shape[0], f.smooth_motor_torque);
+}
+
+}  // namespace
+
+CauseRow describe_motor_torque_ripple() {
+  return {.id = "motor_torque_ripple",
+          .coordinate = "motor_angle",
+          .forms = {{.equation = "tau_f += a sin k theta_m + b cos k theta_m",
+                     .rigs = {Rig::free},
+                     .at = {Equation::motor},
+                     .shapes = turns,
+                     .columns = ripple},
+                    {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m)",
+                     .rigs = {Rig::free},
+                     .at = {Equation::motor},
+                     .shapes = turns,
+                     .columns = ripple_under_current}}};
+}
+
+}  // namespace flexspline::studies

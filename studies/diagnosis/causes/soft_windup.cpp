@@ -1,0 +1,33 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+std::vector<Shape> knee(const Frame& f) {
+  return {{.name = "knee",
+           .unit = "rad",
+           .lower = 0.03 * f.torsion_range,
+           .upper = 0.7 * f.torsion_range,
+           .grid = 4}};
+}
+
+Columns stiffening(Equation, const Frame& f, const Reference&, Values shape) {
+  return {f.torsion - shape[0] * (f.torsion / shape[0]).tanh()};
+}
+
+}  // namespace
+
+CauseRow describe_soft_windup() {
+  return {.id = "soft_windup",
+          .coordinate = "torsion",
+          .forms = {{.equation = "tau += (K3 - K1) (phi - p tanh(phi/p))",
+                     .rigs = kAnyRig,
+                     .at = {Equation::torsion},
+                     .shapes = knee,
+                     .columns = stiffening}}};
+}
+
+}  // namespace flexspline::studies

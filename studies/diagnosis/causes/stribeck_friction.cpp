@@ -1,0 +1,48 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+std::vector<Shape> shapes(std::string_view name, double range) {
+  return {{.name = name, .unit = "rad/s", .lower = 0.003 * range, .upper = 0.6 * range, .grid = 6},
+          {.name = "exponent", .unit = "1", .lower = 0.5, .upper = 3.0}};
+}
+
+std::vector<Shape> motor_speed(const Frame& f) { return shapes("stribeck_speed", f.speed_range); }
+std::vector<Shape> rate(const Frame& f) { return shapes("stribeck_rate", f.rate_range); }
+
+ArrayXd fading(const ArrayXd& speed, Values shape) {
+  return (-(speed.abs() / shape[0]).pow(shape[1])).exp();
+}
+
+Columns at_motor(Equation, const Frame& f, const Reference& known, Values shape) {
+  return {fading(f.motor_speed, shape) * rounded_sign(f.motor_speed, known.motor_coulomb_speed)};
+}
+
+Columns across(Equation, const Frame& f, const Reference& known, Values shape) {
+  return {fading(f.torsion_rate, shape) * rounded_sign(f.torsion_rate, known.torsion_coulomb_rate)};
+}
+
+CauseForm form(std::string_view equation, Equation at, decltype(CauseForm::columns) columns) {
+  const bool motor = at == Equation::motor;
+  return {.equation = equation,
+          .rigs = motor ? kDrives : kAnyRig,
+          .at = {at},
+          .shapes = motor ? motor_speed : rate,
+          .columns = columns,
+          .nonnegative = true};
+}
+
+}  // namespace
+
+CauseRow describe_stribeck_friction() {
+  return {.id = "stribeck_friction",
+          .coordinate = "velocity",
+          .forms = {form("tau_f += s exp(-|w/w_s|^d) sgn w", Equation::motor, at_motor),
+                    form("tau += s exp(-|phi'/v_s|^d) sgn phi'", Equation::torsion, across)}};
+}
+
+}  // namespace flexspline::studies

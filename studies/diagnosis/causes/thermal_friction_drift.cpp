@@ -1,0 +1,46 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+std::vector<Shape> warming(const Frame& f) {
+  return {{.name = "time_constant",
+           .unit = "s",
+           .lower = 0.05 * f.session,
+           .upper = 4.0 * f.session,
+           .grid = 4}};
+}
+
+Columns at_motor(Equation, const Frame& f, const Reference& known, Values shape) {
+  const ArrayXd cold = cold_share(f, shape[0]);
+  return {cold * rounded_sign(f.motor_speed, known.motor_coulomb_speed),
+          cold * f.motor_speed / f.speed_range};
+}
+
+Columns across(Equation, const Frame& f, const Reference& known, Values shape) {
+  return {cold_share(f, shape[0]) * known.dissipative};
+}
+
+}  // namespace
+
+CauseRow describe_thermal_friction_drift() {
+  return {.id = "thermal_friction_drift",
+          .coordinate = "time",
+          .forms = {{.equation = "tau_f += (c sgn w + B w) exp(-t/T), t of the session",
+                     .rigs = kDrives,
+                     .at = {Equation::motor},
+                     .shapes = warming,
+                     .columns = at_motor,
+                     .nonnegative = true},
+                    {.equation = "tau += c g^-1(phi'/h) exp(-t/T), t of the session",
+                     .rigs = {Rig::locked, Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = warming,
+                     .columns = across,
+                     .nonnegative = true}}};
+}
+
+}  // namespace flexspline::studies

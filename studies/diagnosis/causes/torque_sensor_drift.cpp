@@ -1,0 +1,42 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+std::vector<Shape> settling(const Frame& f) {
+  return {{.name = "time_constant",
+           .unit = "s",
+           .lower = 0.05 * f.session,
+           .upper = 2.0 * f.session,
+           .grid = 3}};
+}
+
+Columns steady(Equation equation, const Frame& f, const Reference&, Values) {
+  return of_torque_signal(equation, f, {f.clock / f.session});
+}
+
+Columns settles(Equation equation, const Frame& f, const Reference&, Values shape) {
+  return of_torque_signal(equation, f, {1.0 - cold_share(f, shape[0])});
+}
+
+}  // namespace
+
+CauseRow describe_torque_sensor_drift() {
+  const std::vector<Equation> at = {Equation::torsion, Equation::load, Equation::motor};
+  return {.id = "torque_sensor_drift",
+          .coordinate = "time",
+          .forms = {{.equation = "tau_measured = tau + r t, t of the session",
+                     .rigs = kAnyRig,
+                     .at = at,
+                     .columns = steady},
+                    {.equation = "tau_measured = tau + a (1 - exp(-t/T)), t of the session",
+                     .rigs = kAnyRig,
+                     .at = at,
+                     .shapes = settling,
+                     .columns = settles}}};
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,24 @@
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+Columns constant(Equation equation, const Frame& f, const Reference&, Values) {
+  return of_torque_signal(equation, f, {ArrayXd::Ones(f.rows())});
+}
+
+}  // namespace
+
+CauseRow describe_torque_sensor_offset() {
+  return {.id = "torque_sensor_offset",
+          .coordinate = "constant",
+          .forms = {{.equation = "tau_measured = tau + o",
+                     .rigs = kDrives,
+                     .at = {Equation::torsion, Equation::load, Equation::motor},
+                     .columns = constant}}};
+}
+
+}  // namespace flexspline::studies

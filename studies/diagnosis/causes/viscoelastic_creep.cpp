@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Values = std::span<const double>;
+
+constexpr int kBranches = 7;
+
+ArrayXd branch(const Frame& f, double relaxation) {
+  ArrayXd column(f.rows());
+  for (const Segment& s : f.segments) {
+    double state = column[s.first] = 0.0;
+    for (Eigen::Index r = s.first + 1; r < s.first + s.count; ++r) {
+      const double dt = f.time[r] - f.time[r - 1];
+      const double kept = std::exp(-dt / relaxation);
+      const double rate = (f.torsion[r] - f.torsion[r - 1]) / dt;
+      state = state * kept + relaxation * (1.0 - kept) * rate;
+      column[r] = state;
+    }
+  }
+  return column;
+}
+
+Columns branches(Equation, const Frame& f, const Reference&, Values) {
+  Columns columns;
+  for (double relaxation : geometric(4.0 * f.interval, f.duration, kBranches)) {
+    columns.push_back(branch(f, relaxation));
+  }
+  return columns;
+}
+
+}  // namespace
+
+CauseRow describe_viscoelastic_creep() {
+  return {.id = "viscoelastic_creep",
+          .coordinate = "lag",
+          .forms = {{.equation = "tau += sum_i k_i s_i, s_i' = phi' - s_i/T_i",
+                     .rigs = kAnyRig,
+                     .at = {Equation::torsion},
+                     .columns = branches,
+                     .nonnegative = true}}};
+}
+
+}  // namespace flexspline::studies

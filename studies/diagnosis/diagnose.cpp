@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "diagnosis/experiment.hpp"
+#include "diagnosis/prove.hpp"
+#include "diagnosis/spelled.hpp"
+#include "flexspline/studies/diagnosis.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr Eigen::Index kMostRows = 16000;
+
+double weighted_level(const Frame& frame, const EquationNoise& noise) {
+  double variance = 0.0;
+  double rows = 0.0;
+  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
+    const double count = static_cast<double>(frame.segments[i].count);
+    variance += count * noise.level[i] * noise.level[i];
+    rows += count;
+  }
+  return std::sqrt(variance / rows);
+}
+
+Verdict verdict_of(const Selection& s) {
+  if (s.accepted.empty()) return s.remainder ? Verdict::unexplained : Verdict::adequate;
+  return s.remainder ? Verdict::partly_explained : Verdict::explained;
+}
+
+Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgress& progress) {
+  if (progress) progress(0.0, "smoothing the motions");
+  const auto frame = make_frame(recordings, kMostRows);
+  if (!frame) return tl::unexpected(frame.error());
+  if (progress) progress(0.1, "fitting the baseline");
+  const Limits limits;
+  const auto selection = select_causes(*frame, limits, progress);
+  if (!selection) return tl::unexpected(selection.error());
+  if (progress) progress(0.75, "proving on recordings held out");
+  const auto proof = prove(*frame, *selection);
+  if (!proof) return tl::unexpected(proof.error());
+  if (progress) progress(0.9, "comparing the candidates");
+  Diagnosis d;
+  d.dataset = recordings.name;
+  d.sha256 = recordings.sha256;
+  d.display = recordings.display;
+  d.notes = recordings.notes;
+  d.notes.insert(d.notes.end(), frame->notes.begin(), frame->notes.end());
+  d.baseline_model = baseline_in_words(*frame);
+  d.baseline_rmse_train = proof->rmse_train_before;
+  d.baseline_rmse_holdout = proof->holdout.rmse_before;
+  const Equation shown = equation_to_prove(*frame, *selection);
+  d.noise_std = weighted_level(*frame, selection->final.noise[index_of(shown)]);
+  d.verdict = verdict_of(*selection);
+  d.holdout = proof->holdout;
+  d.causes = spelled_causes(*frame, *selection, *proof);
+  d.mismatch = spelled_mismatch(*frame, *selection, limits);
+  d.confusable = spelled_confusable(*frame, *selection);
+  d.tried = spelled_trials(*selection, limits);
+  d.moved = spelled_moves(*frame, *selection);
+  d.series = spelled_series(*frame, *selection);
+  d.next_experiment = next_experiment(*frame, *selection);
+  d.says = spelled_verdict(d);
+  return d;
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "adequate";
+    case Verdict::explained:
+      return "explained";
+    case Verdict::partly_explained:
+      return "partly_explained";
+    case Verdict::unexplained:
+      break;
+  }
+  return "unexplained";
+}
+
+Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  auto result = diagnosed(recordings, progress);
+  if (!result) return result;
+  result->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (progress) progress(1.0, "done");
+  return result;
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/core/recording.hpp"
+
+namespace flexspline::studies {
+
+/// The equations of a drive, Dhaouadi and Ghorbel (2003): motor (5), load (6), torsion (7).
+enum class Equation { torsion, load, motor };
+
+std::string_view name_of(Equation equation);
+
+/// Rows [first, first + count) of a frame that come from one recording.
+struct Segment {
+  std::string id;
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+  Split split = Split::unassigned;
+};
+
+/// All recordings of a set on one list of rows, motions smoothed. SI; motor quantities at the motor
+/// shaft, others at the output. A channel that the rig does not have is zero; on a specimen the
+/// imposed motion is motor, load and torsion at once, with ratio 1 unless stated.
+struct Frame {
+  Rig rig = Rig::locked;
+  double ratio = 1.0;
+  double motor_inertia = 0.0;
+  double load_inertia = 0.0;
+  bool travels = false;  ///< an angle that travels: f is a free function of it
+  std::vector<Equation> equations;
+  std::vector<std::string> notes;  ///< what could not be judged, and why
+  std::vector<Segment> segments;
+
+  Eigen::ArrayXd time;   ///< of the recording
+  Eigen::ArrayXd clock;  ///< shared by the set, from 0
+  Eigen::ArrayXd motor_angle, motor_speed, motor_acceleration;
+  Eigen::ArrayXd load_angle, load_speed, load_acceleration;
+  Eigen::ArrayXd torsion, torsion_rate, torsion_acceleration;
+  Eigen::ArrayXd torque;                      ///< measured, across the transmission
+  Eigen::ArrayXd smooth_torque, torque_rate;  ///< the same, smoothed
+  Eigen::ArrayXd motor_torque;                ///< recorded, at the motor shaft
+  Eigen::ArrayXd smooth_motor_torque, motor_torque_rate;
+  Eigen::ArrayXd usable;  ///< 1, or 0 where the bench spoiled the sample or smoothing has no hold
+
+  double torsion_range = 0.0;  ///< largest |torsion|
+  double rate_range = 0.0;     ///< largest |torsion rate|
+  double slow_rate = 0.0;      ///< tenth percentile of |torsion rate|
+  double speed_range = 0.0;    ///< largest |motor speed|
+  double torque_range = 0.0;   ///< largest |torque|
+  double duration = 0.0;       ///< longest recording
+  double interval = 0.0;       ///< median time between rows
+  double session = 0.0;        ///< of the clock
+
+  Eigen::Index rows() const { return time.size(); }
+  bool has(Equation equation) const;
+  /// Ranges of torsion and rate anew, after a change of either.
+  void measure_torsion();
+};
+
+/// The frame of a set. More rows than most_rows are thinned evenly, recording by recording;
+/// recordings are put in order of their time and content, so that the order in the file does not
+/// matter.
+/// Errors: bad_data where the rig's channels do not give one equation.
+Result<Frame> make_frame(const RecordingSet& set, Eigen::Index most_rows);
+
+}  // namespace flexspline::studies

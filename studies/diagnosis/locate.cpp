@@ -1,0 +1,246 @@
+#include "diagnosis/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+#include "diagnosis/cause_columns.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr int kBins = 20;
+constexpr int kDirectedBins = 10;
+constexpr double kHighestOrder = 40.0;
+constexpr double kRidge = 1e-9;
+
+// Indicator columns of equally filled bins, each times a factor.
+Columns bins(const ArrayXd& x, int count, const ArrayXd& factor) {
+  std::vector<double> sorted(x.begin(), x.end());
+  std::ranges::sort(sorted);
+  Columns columns;
+  double low = -std::numeric_limits<double>::infinity();
+  for (int b = 1; b <= count; ++b) {
+    const double high =
+        b == count
+            ? std::numeric_limits<double>::infinity()
+            : sorted[sorted.size() * static_cast<std::size_t>(b) / static_cast<std::size_t>(count)];
+    columns.push_back((x > low && x <= high).select(factor, 0.0));
+    low = high;
+  }
+  return columns;
+}
+
+Columns bins(const ArrayXd& x, int count) { return bins(x, count, ArrayXd::Ones(x.size())); }
+
+Columns directed_bins(const ArrayXd& x, const ArrayXd& direction, int count) {
+  return bins(x, count, direction);
+}
+
+/// The speed and acceleration that an equation is about.
+const ArrayXd& speed_of(const Frame& f, Equation equation) {
+  if (equation == Equation::motor) return f.motor_speed;
+  return equation == Equation::load ? f.load_speed : f.torsion_rate;
+}
+const ArrayXd& acceleration_of(const Frame& f, Equation equation) {
+  if (equation == Equation::motor) return f.motor_acceleration;
+  return equation == Equation::load ? f.load_acceleration : f.torsion_acceleration;
+}
+const ArrayXd& position_of(const Frame& f, Equation equation) {
+  if (equation == Equation::motor) return f.motor_angle;
+  return equation == Equation::load ? f.load_angle : f.torsion;
+}
+
+// Way since the last reversal, over the largest way.
+ArrayXd since_reversal(const Frame& f, const ArrayXd& position, const ArrayXd& speed) {
+  ArrayXd way(f.rows());
+  for (const Segment& s : f.segments) {
+    double turned_at = position[s.first];
+    for (Index r = s.first; r < s.first + s.count; ++r) {
+      if (r > s.first && speed[r] * speed[r - 1] <= 0.0) turned_at = position[r];
+      way[r] = std::abs(position[r] - turned_at);
+    }
+  }
+  return way;
+}
+
+ArrayXd rate_of(const Frame& f, const ArrayXd& signal) {
+  ArrayXd rate = ArrayXd::Zero(f.rows());
+  for (const Segment& s : f.segments) {
+    for (Index r = s.first + 1; r + 1 < s.first + s.count; ++r) {
+      rate[r] = (signal[r + 1] - signal[r - 1]) / (f.time[r + 1] - f.time[r - 1]);
+    }
+  }
+  return rate;
+}
+
+Columns by_recording(const Frame& f, const ArrayXd& direction) {
+  Columns columns;
+  for (const Segment& s : f.segments) {
+    ArrayXd still = ArrayXd::Zero(f.rows());
+    still.segment(s.first, s.count).setOnes();
+    columns.push_back(still);
+    columns.push_back(still * direction);
+  }
+  return columns;
+}
+
+/// Sums of squares with and without columns, over weighted rows.
+struct Reduction {
+  double before = 0.0;
+  double after = 0.0;
+  int columns = 0;
+};
+
+Reduction reduction(const ArrayXd& residual, const ArrayXd& weight, const Columns& columns) {
+  const Index k = static_cast<Index>(columns.size());
+  Eigen::MatrixXd x(residual.size(), k);
+  for (Index j = 0; j < k; ++j) x.col(j) = columns[static_cast<std::size_t>(j)] * weight;
+  const Eigen::VectorXd y = residual * weight;
+  Eigen::MatrixXd normal = x.transpose() * x;
+  normal.diagonal().array() += kRidge * normal.trace() / static_cast<double>(k) + 1e-300;
+  const Eigen::VectorXd right = x.transpose() * y;
+  Reduction r{y.squaredNorm(), 0.0, static_cast<int>(k)};
+  r.after = std::max(r.before - right.dot(normal.ldlt().solve(right)), 1e-12 * r.before);
+  return r;
+}
+
+class Scan {
+ public:
+  Scan(const Frame& frame, const Findings& findings, Equation equation)
+      : f_(frame),
+        equation_(equation),
+        residual_(findings.fit.residual[index_of(equation)]),
+        weight_(findings.weight[index_of(equation)]),
+        prediction_(findings.fit.prediction[index_of(equation)]),
+        rows_(static_cast<double>((weight_ > 0.0).count())),
+        colour_(findings.noise[index_of(equation)].colour) {}
+
+  std::vector<CoordinateScore> all() {
+    const ArrayXd& speed = speed_of(f_, equation_);
+    const ArrayXd direction = rounded_sign(speed, 0.01 * speed.abs().maxCoeff());
+    if (equation_ == Equation::torsion) score("torsion", bins(f_.torsion, kBins), "torsion");
+    score("velocity", bins(speed, kBins), "speed");
+    score("acceleration", acceleration_columns(), "acceleration");
+    score("load", directed_bins(f_.torque.abs(), direction, kDirectedBins),
+          "load, with the sign of the motion");
+    score("reversal_memory",
+          directed_bins(since_reversal(f_, position_of(f_, equation_), speed), direction,
+                        kDirectedBins),
+          "way since the last reversal");
+    score("lag", {rate_of(f_, prediction_)}, "rate of the torque itself");
+    score("time", by_recording(f_, direction), "time of the session");
+    score("constant", {ArrayXd::Ones(f_.rows())}, "nothing: it is constant");
+    if (f_.rig == Rig::free) {
+      score("load_angle", bins(f_.load_angle, kBins), "load angle");
+      turns();
+    } else if (f_.travels) {
+      turns();
+    }
+    return std::move(scores_);
+  }
+
+ private:
+  Columns acceleration_columns() const {
+    const ArrayXd& a = acceleration_of(f_, equation_);
+    return {a / a.abs().maxCoeff()};
+  }
+
+  void score(std::string_view coordinate, const Columns& columns, std::string_view words,
+             double tried = 1.0) {
+    const Reduction r = reduction(residual_, weight_, columns);
+    const double n = rows_ / colour_;
+    CoordinateScore s;
+    s.equation = equation_;
+    s.coordinate = coordinate;
+    s.statistic =
+        n * std::log(r.before / r.after) - r.columns * std::log(n) - 2.0 * std::log(tried);
+    s.share = 1.0 - r.after / r.before;
+    s.says =
+        fmt::format("what is left of the {} equation follows the {}", name_of(equation_), words);
+    scores_.push_back(std::move(s));
+  }
+
+  // Every order that the travel can tell apart: sine and cosine, plain and with the sign of motion.
+  void turns() {
+    const double travel = f_.motor_angle.maxCoeff() - f_.motor_angle.minCoeff();
+    const double turns = travel / (2.0 * std::numbers::pi);
+    if (turns < 1.0) return;
+    const double step = 0.25 / turns;
+    const double first = 2.0 * step;
+    const ArrayXd direction = rounded_sign(f_.motor_speed, 0.01 * f_.speed_range);
+    double best = -1.0;
+    double order = first;
+    bool flips = false;
+    // From one order to the next by a rotation, many times faster than sines.
+    ArrayXd s = (first * f_.motor_angle).sin();
+    ArrayXd c = (first * f_.motor_angle).cos();
+    const ArrayXd turn_s = (step * f_.motor_angle).sin();
+    const ArrayXd turn_c = (step * f_.motor_angle).cos();
+    const ArrayXd plain = residual_ * weight_.square();
+    const ArrayXd directed = plain * direction;
+    for (double k = first; k <= kHighestOrder; k += step) {
+      for (const bool with_sign : {false, true}) {
+        const ArrayXd& y = with_sign ? directed : plain;
+        const double power = std::pow((s * y).sum(), 2) + std::pow((c * y).sum(), 2);
+        if (power > best) best = power, order = k, flips = with_sign;
+      }
+      const ArrayXd next = s * turn_c + c * turn_s;
+      c = c * turn_c - s * turn_s;
+      s = next;
+    }
+    const double tried = 2.0 * kHighestOrder / step;
+    const ArrayXd factor = flips ? direction : ArrayXd::Ones(f_.rows());
+    score("motor_angle", sine_pair(f_.motor_angle, order, factor),
+          fmt::format("motor angle, {:.2f} times a turn{}", order,
+                      flips ? ", with the sign of the motion" : ""),
+          tried);
+  }
+
+  const Frame& f_;
+  Equation equation_;
+  const ArrayXd& residual_;
+  const ArrayXd& weight_;
+  const ArrayXd& prediction_;
+  double rows_;
+  double colour_;
+  std::vector<CoordinateScore> scores_;
+};
+
+}  // namespace
+
+std::vector<CoordinateScore> locate(const Frame& frame, const Findings& findings) {
+  std::vector<CoordinateScore> scores;
+  for (Equation equation : frame.equations) {
+    for (CoordinateScore& s : Scan(frame, findings, equation).all()) scores.push_back(std::move(s));
+  }
+  std::ranges::stable_sort(scores, std::ranges::greater{}, &CoordinateScore::statistic);
+  return scores;
+}
+
+WorstWindow worst_window(const Frame& frame, const Findings& findings, Equation equation) {
+  const std::size_t e = index_of(equation);
+  const ArrayXd power = (findings.fit.residual[e] * findings.weight[e]).square();
+  WorstWindow worst;
+  double largest = -1.0;
+  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
+    const Segment& s = frame.segments[i];
+    const Index width = std::max<Index>(s.count / 20, 8);
+    for (Index r = 0; r + width < s.count; r += width / 2) {
+      const double mean = power.segment(s.first + r, width).mean();
+      if (mean <= largest) continue;
+      largest = mean;
+      worst = {i, frame.time[s.first + r], frame.time[s.first + r + width]};
+    }
+  }
+  return worst;
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "diagnosis/model.hpp"
+
+namespace flexspline::studies {
+
+/// Noise of one equation's residual.
+struct EquationNoise {
+  std::vector<double> level;  ///< standard deviation by segment, Nm
+  double colour = 1.0;        ///< long-run variance over variance: 1 for white noise
+};
+
+/// What is left of a residual when all that changes slowly is taken out: standard deviation about a
+/// running parabola of 51 samples (Savitzky and Golay 1964), by recording, its freedom counted. A
+/// model error that changes within a few samples counts as noise.
+std::vector<double> noise_levels(const Frame& frame, const Eigen::ArrayXd& residual);
+
+/// 1 + 2 sum of autocorrelations over eight lags, of the residual about a running parabola of 81
+/// samples; at least 1.
+double noise_colour(const Frame& frame, const Eigen::ArrayXd& residual);
+
+/// Weights 1/level of usable rows.
+Eigen::ArrayXd weights_of(const Frame& frame, const std::vector<double>& level);
+
+}  // namespace flexspline::studies

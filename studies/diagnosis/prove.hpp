@@ -1,0 +1,28 @@
+#pragma once
+
+#include "diagnosis/selection.hpp"
+#include "flexspline/studies/diagnosis.hpp"
+
+namespace flexspline::studies {
+
+/// Which rows are held out: whole recordings, those that the data set marks; without marks a third
+/// of the recordings, by their place in the order of their largest rate, never the first or last.
+Eigen::ArrayXd held_out(const Frame& frame);
+
+/// The equation whose residual is the errors' unit: the transmitted torque where a cause acts on
+/// it, else that of the first cause.
+Equation equation_to_prove(const Frame& frame, const Selection& selection);
+
+/// Errors of the baseline and of the final model, both fitted to the rows that are not held out, on
+/// those that are. SI, at the equation's shaft; the interval of the ratio by 400 resamplings of
+/// blocks of the held-out recordings.
+struct Proof {
+  HoldoutProof holdout;
+  double rmse_train_before = kNotComputed;
+  double rmse_train_after = kNotComputed;
+  std::vector<double> cause_ratio;    ///< final model over the final model without that cause
+  std::vector<double> placebo_ratio;  ///< with an absent effect instead, over the baseline
+};
+Result<Proof> prove(const Frame& frame, const Selection& selection);
+
+}  // namespace flexspline::studies

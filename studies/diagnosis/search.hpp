@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/model.hpp"
+#include "diagnosis/noise.hpp"
+
+namespace flexspline::studies {
+
+/// What is known of a drive at a stage of the search.
+struct Findings {
+  ModelFit fit;
+  Reference reference;
+  std::array<EquationNoise, 3> noise;
+  PerEquation weight;
+
+  /// Weighted sum of squares over the noise's colour: a chi square where only noise is left.
+  double chi_square(Equation equation) const {
+    const std::size_t e = index_of(equation);
+    return fit.sum_of_squares[e] / noise[e].colour;
+  }
+};
+
+/// A cause tried on top of the findings, shapes refined.
+struct Trial {
+  ActiveCause cause;
+  ModelFit fit{};         ///< the whole model with it
+  double gain = 0.0;      ///< fall of the chi square
+  double net_gain = 0.0;  ///< less what as many parameters and that search gain on noise
+  int parameters = 0;
+  double removed = 0.0;  ///< share of the misfit beyond noise that it removes
+  double size = 0.0;     ///< largest contribution over the largest torque of its equation
+};
+
+/// The baseline, weighted by the noise that it leaves.
+Result<Findings> fit_baseline(const Frame& frame);
+
+/// Weights, colour and reference anew from the residuals of the fit, and the fit with them.
+Result<void> refresh(const Frame& frame, Findings& findings, int steps);
+
+/// Every parameter of the model fitted anew with the weights that stand.
+Result<void> fit_all(const Frame& frame, Findings& findings, int steps);
+
+/// The fit with one more cause; equations that it does not touch stay as they are.
+Result<ModelFit> extended(const Frame& frame, const Findings& findings, const ActiveCause& cause,
+                          int steps);
+
+/// The fit of the same model without one of its causes.
+Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause,
+                         int steps);
+
+/// Every cause that is not yet in the model, best net gain first; one entry a cause.
+std::vector<Trial> try_causes(const Frame& frame, const Findings& findings);
+
+/// Misfit beyond noise, in chi square, summed over the equations.
+double excess(const Frame& frame, const Findings& findings, const ModelFit& fit);
+
+}  // namespace flexspline::studies

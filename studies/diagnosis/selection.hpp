@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/locate.hpp"
+
+namespace flexspline::studies {
+
+/// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
+/// from: docs/calibration.md.
+struct Limits {
+  double net_gain = 45.0;         ///< least net gain of a cause
+  double size = 0.003;            ///< least size of a cause, share of the largest torque
+  double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
+  double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
+  double remainder = 60.0;        ///< statistic of a coordinate that says something is left
+  double remainder_share = 0.02;  ///< and the share of the residual it has to order
+  double shadow = 0.01;           ///< gain over that of a larger cause of the same equation
+  double explained = 0.75;        ///< share of the misfit that the causes have to remove
+  double misfit = 1.25;           ///< mean square over noise that counts as explained
+  int rounds = 4;
+};
+
+/// A cause that was accepted, with the others that did nearly as well.
+struct Accepted {
+  Trial trial;
+  std::vector<Trial> rivals;  ///< alternatives, best first
+  std::vector<Trial> field;   ///< every other cause refined in that round
+};
+
+/// The end of the search.
+struct Selection {
+  Findings baseline;
+  Findings final;  ///< with the accepted causes, or the baseline
+  std::vector<Accepted> accepted;
+  std::vector<Trial> last_field;        ///< of the round in which none was accepted
+  std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual
+  std::vector<CoordinateScore> after;   ///< of the final residual
+  double removed = 0.0;                 ///< share of the misfit that the causes remove
+  bool remainder = false;               ///< something is left beyond noise
+  std::vector<Accepted> withdrawn;      ///< causes that explain too little to be named
+};
+
+/// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
+/// out again. Causes that together leave most of the misfit are withdrawn.
+Result<Selection> select_causes(const Frame& frame, const Limits& limits,
+                                const std::function<void(double, std::string_view)>& progress);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,309 @@
+#include "diagnosis/spelled.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnosis/baseline.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr std::size_t kMostAlternatives = 2;
+constexpr std::size_t kMostMismatches = 6;
+constexpr Index kSeriesPoints = 400;
+
+std::vector<std::string> ids_of(const std::vector<Trial>& trials, std::size_t most) {
+  std::vector<std::string> ids;
+  for (const Trial& t : trials) {
+    if (ids.size() < most) ids.emplace_back(t.cause.row->id);
+  }
+  return ids;
+}
+
+// Share of belief among the causes of one round: net gains as log likelihoods, halved, so that no
+// rival is written off for a misfit of form alone.
+double belief(const Accepted& accepted) {
+  double others = 0.0;
+  for (const auto* list : {&accepted.rivals, &accepted.field}) {
+    for (const Trial& t : *list) {
+      if (t.cause.row == nullptr) continue;
+      others += std::exp(-0.25 * std::max(accepted.trial.net_gain - t.net_gain, 0.0));
+    }
+  }
+  return 1.0 / (1.0 + others);
+}
+
+std::vector<CauseParameter> parameters_of(const Trial& trial, const Frame& frame,
+                                          const Eigen::VectorXd& coefficients) {
+  std::vector<CauseParameter> list;
+  const auto shapes =
+      trial.cause.form->shapes == nullptr ? std::vector<Shape>{} : trial.cause.form->shapes(frame);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    list.push_back({std::string(shapes[i].name), trial.cause.shape[i], kNotComputed,
+                    std::string(shapes[i].unit)});
+  }
+  const bool alone = coefficients.size() == 1;
+  for (Index k = 0; k < coefficients.size(); ++k) {
+    CauseParameter p{fmt::format("a{}", k + 1), coefficients[k], kNotComputed, ""};
+    // One linear parameter: its gain is the square of its value over its standard deviation.
+    if (alone && trial.gain > 0.0) p.std = std::abs(p.value) / std::sqrt(trial.gain);
+    list.push_back(std::move(p));
+  }
+  return list;
+}
+
+Mismatch at_worst(const Frame& frame, const Findings& findings, Equation equation) {
+  const WorstWindow w = worst_window(frame, findings, equation);
+  return {.recording = frame.segments[w.segment].id,
+          .from_s = w.from_s,
+          .to_s = w.to_s,
+          .coordinate = {},
+          .equation = std::string(name_of(equation)),
+          .says = {}};
+}
+
+bool listed(const std::vector<Mismatch>& list, std::string_view coordinate) {
+  return std::ranges::any_of(list, [&](const Mismatch& m) { return m.coordinate == coordinate; });
+}
+
+Equation first_equation(const Frame& frame, const CauseForm& form) {
+  for (Equation e : form.at) {
+    if (frame.has(e)) return e;
+  }
+  return form.at.front();
+}
+
+// Weighted change of the prediction by a trial, equation under equation.
+Eigen::VectorXd change_of(const Frame& frame, const Findings& findings, const Trial& trial) {
+  Eigen::VectorXd change =
+      Eigen::VectorXd::Zero(frame.rows() * static_cast<Index>(frame.equations.size()));
+  Index at = 0;
+  for (Equation equation : frame.equations) {
+    const std::size_t e = index_of(equation);
+    if (trial.fit.residual[e].size() > 0 && findings.fit.residual[e].size() > 0) {
+      change.segment(at, frame.rows()) =
+          ((findings.fit.residual[e] - trial.fit.residual[e]) * findings.weight[e]).matrix();
+    }
+    at += frame.rows();
+  }
+  return change;
+}
+
+std::string outcome_of(const Trial& t, bool accepted, bool rival, bool withdrawn,
+                       const Limits& limits) {
+  if (withdrawn && accepted)
+    return "withdrawn: what it leaves is no noise, and no effect tried takes it away";
+  if (accepted) return "accepted";
+  if (rival) return "explains the same signal nearly as well: an alternative";
+  if (t.net_gain < limits.net_gain) return "gains no more than noise would";
+  if (t.size < limits.size) return "too small to matter";
+  if (t.cause.form->transform == nullptr && t.size > limits.taken_up) {
+    return "what it adds is taken up by the baseline";
+  }
+  return "gains less than the accepted one";
+}
+
+TriedCandidate tried(const Trial& t, int round, std::string outcome) {
+  return {.effect = std::string(t.cause.row->id),
+          .round = round,
+          .misfit_removed = t.removed,
+          .delta_bic = -t.net_gain,
+          .holdout_rmse_ratio = kNotComputed,
+          .outcome = std::move(outcome)};
+}
+
+void add_round(const Accepted& a, int round, bool withdrawn, const Limits& limits,
+               std::vector<TriedCandidate>& list) {
+  list.push_back(tried(a.trial, round, outcome_of(a.trial, true, false, withdrawn, limits)));
+  for (const Trial& t : a.rivals) {
+    list.push_back(tried(t, round, outcome_of(t, false, true, withdrawn, limits)));
+  }
+  for (const Trial& t : a.field) {
+    if (t.cause.row == nullptr) continue;
+    list.push_back(tried(t, round, outcome_of(t, false, false, withdrawn, limits)));
+  }
+}
+
+}  // namespace
+
+std::string baseline_in_words(const Frame& frame) {
+  std::string words = frame.travels ? "f(angle) free, Coulomb and viscous friction"
+                                    : "f, g, h full trajectory, f and g odd and rising";
+  if (frame.has(Equation::load)) words += "; load inertia and drag";
+  if (frame.has(Equation::motor)) words += "; motor inertia, viscous and Coulomb friction";
+  return words;
+}
+
+std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const Proof& proof) {
+  std::vector<Cause> list;
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    const Accepted& a = s.accepted[i];
+    Cause cause;
+    cause.effect = a.trial.cause.row->id;
+    cause.probability = belief(a);
+    cause.size_fraction = a.trial.size;
+    cause.equation = a.trial.cause.form->equation;
+    cause.parameters = parameters_of(a.trial, frame, s.final.fit.model.coefficients[i]);
+    cause.alternatives = ids_of(a.rivals, kMostAlternatives);
+    cause.evidence.score_p_value = std::exp(-0.5 * std::min(a.trial.gain, 600.0));
+    cause.evidence.delta_bic = -a.trial.net_gain;
+    cause.evidence.holdout_rmse_ratio = proof.cause_ratio[i];
+    cause.evidence.ablation_ratio = 1.0 / proof.cause_ratio[i];
+    cause.evidence.placebo_ratio = proof.placebo_ratio[i];
+    list.push_back(std::move(cause));
+  }
+  return list;
+}
+
+std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
+                                       const Limits& limits) {
+  std::vector<Mismatch> list;
+  for (const Accepted& a : s.accepted) {
+    if (listed(list, a.trial.cause.row->coordinate)) continue;
+    const Equation equation = first_equation(frame, *a.trial.cause.form);
+    Mismatch m = at_worst(frame, s.baseline, equation);
+    m.coordinate = a.trial.cause.row->coordinate;
+    m.share_of_excess = std::clamp(a.trial.removed, 0.0, 1.0);
+    m.says = fmt::format("the {} equation misses {}: {}", name_of(equation), a.trial.cause.row->id,
+                         a.trial.cause.form->equation);
+    list.push_back(std::move(m));
+  }
+  for (const CoordinateScore& score : s.before) {
+    if (list.size() >= kMostMismatches || score.statistic < limits.remainder) break;
+    if (listed(list, score.coordinate)) continue;
+    Mismatch m = at_worst(frame, s.baseline, score.equation);
+    m.coordinate = score.coordinate;
+    m.share_of_excess = score.share;
+    m.says = score.says;
+    list.push_back(std::move(m));
+  }
+  return list;
+}
+
+std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& s) {
+  std::vector<Confusable> list;
+  for (std::size_t i = 0; i < s.accepted.size() && i < 1; ++i) {
+    const Accepted& a = s.accepted[i];
+    const Eigen::VectorXd own = change_of(frame, s.baseline, a.trial);
+    for (const auto* field : {&a.rivals, &a.field}) {
+      for (const Trial& t : *field) {
+        if (t.cause.row == nullptr) continue;
+        const Eigen::VectorXd other = change_of(frame, s.baseline, t);
+        const double scale = own.norm() * other.norm();
+        if (!(scale > 0.0)) continue;
+        const double cosine = std::abs(own.dot(other)) / scale;
+        if (cosine < 0.2) continue;
+        list.push_back({std::string(t.cause.row->id), std::string(a.trial.cause.row->id), cosine,
+                        fmt::format("on these recordings it removes {:.0f} % of what {} removes",
+                                    100.0 * t.gain / a.trial.gain, a.trial.cause.row->id)});
+      }
+    }
+  }
+  std::ranges::stable_sort(list, std::ranges::greater{}, &Confusable::similarity);
+  return list;
+}
+
+std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& limits) {
+  std::vector<TriedCandidate> list;
+  int round = 0;
+  for (const Accepted& a : s.accepted) add_round(a, ++round, false, limits, list);
+  for (const Accepted& a : s.withdrawn) add_round(a, ++round, true, limits, list);
+  ++round;
+  for (const Trial& t : s.last_field) {
+    if (t.cause.row == nullptr) continue;
+    list.push_back(tried(t, round, outcome_of(t, false, false, false, limits)));
+  }
+  return list;
+}
+
+std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s) {
+  std::vector<ParameterMove> list;
+  if (s.accepted.empty()) return list;
+  const auto add = [&](std::string name, double before, double after, std::string unit) {
+    list.push_back({std::move(name), before, after, kNotComputed, std::move(unit)});
+  };
+  const DriveModel& before = s.baseline.fit.model;
+  const DriveModel& after = s.final.fit.model;
+  if (frame.has(Equation::torsion)) {
+    const Reference b = reference_of(frame, before);
+    const Reference a = reference_of(frame, after);
+    add("largest elastic torque", b.elastic.abs().maxCoeff(), a.elastic.abs().maxCoeff(), "Nm");
+    add("largest dissipative torque", b.dissipative.abs().maxCoeff(),
+        a.dissipative.abs().maxCoeff(), "Nm");
+  }
+  if (frame.has(Equation::load)) {
+    const std::size_t e = index_of(Equation::load);
+    add("load drag B2", before.own[e][0], after.own[e][0], "Nm s/rad");
+  }
+  if (frame.has(Equation::motor)) {
+    const std::size_t e = index_of(Equation::motor);
+    add("motor drag B1", before.own[e][0], after.own[e][0], "Nm s/rad");
+    add("motor Coulomb friction", before.own[e][1], after.own[e][1], "Nm");
+  }
+  return list;
+}
+
+std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& s) {
+  const Equation equation = equation_to_prove(frame, s);
+  const std::size_t e = index_of(equation);
+  const ArrayXd out = held_out(frame);
+  std::vector<DiagnosedSeries> list;
+  for (const Segment& segment : frame.segments) {
+    DiagnosedSeries series;
+    series.recording = segment.id;
+    series.split = out[segment.first] > 0.0 ? Split::holdout : Split::train;
+    series.equation = name_of(equation);
+    const Index stride = std::max<Index>(1, segment.count / kSeriesPoints);
+    const ArrayXd& measured = equation == Equation::motor ? frame.motor_torque : frame.torque;
+    for (Index r = segment.first; r < segment.first + segment.count; r += stride) {
+      series.time.push_back(frame.time[r]);
+      series.motion.push_back(frame.torsion[r]);
+      series.rate.push_back(frame.torsion_rate[r]);
+      series.measured.push_back(measured[r]);
+      series.before.push_back(s.baseline.fit.prediction[e][r]);
+      series.after.push_back(s.final.fit.prediction[e][r]);
+    }
+    list.push_back(std::move(series));
+  }
+  return list;
+}
+
+std::string spelled_verdict(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const Cause& cause : d.causes) {
+    std::string name = cause.effect;
+    if (!cause.alternatives.empty()) {
+      name += fmt::format(" (or {}, which these recordings cannot tell apart from it)",
+                          fmt::join(cause.alternatives, " or "));
+    }
+    names.push_back(std::move(name));
+  }
+  const std::string named = fmt::format("{}", fmt::join(names, " and "));
+  switch (d.verdict) {
+    case Verdict::adequate:
+      return "Nothing was left out: the baseline explains the recordings to within their noise.";
+    case Verdict::explained:
+      return fmt::format(
+          "Left out: {}. With it the error on held-out recordings falls to {:.0f} % of before.",
+          named, 100.0 * d.holdout.ratio);
+    case Verdict::partly_explained:
+      return fmt::format(
+          "Left out: {}. With it the error on held-out recordings falls to {:.0f} % "
+          "of before, but something that no catalogued effect explains is left.",
+          named, 100.0 * d.holdout.ratio);
+    case Verdict::unexplained:
+      break;
+  }
+  return d.mismatch.empty()
+             ? "Something was left out that no catalogued effect explains."
+             : fmt::format("Something was left out that no catalogued effect explains; {}.",
+                           d.mismatch.front().says);
+}
+
+}  // namespace flexspline::studies
