@@ -5,6 +5,16 @@
 #include <limits>
 
 namespace flexspline::estimators {
+namespace {
+
+SparsePattern empty_pattern(std::size_t entries) {
+  SparsePattern pattern;
+  pattern.row.reserve(entries);
+  pattern.column.reserve(entries);
+  return pattern;
+}
+
+}  // namespace
 
 DrivenMesh driven_mesh(const DrivenSeries& series, std::span<const std::size_t> parts) {
   DrivenMesh mesh{.time = {series.time.front()}, .torque = {series.torque.front()}, .sample = {0}};
@@ -37,6 +47,10 @@ std::vector<double> derivative_weights(std::span<const double> points, double at
 
 DrivenNlp::DrivenNlp(const DrivenProblem& problem, const std::vector<DrivenMesh>& meshes)
     : problem_(problem), parameters_(problem.size()) {
+  std::size_t count = 0;
+  for (const DrivenMesh& mesh : meshes) count += mesh.points() - 1;
+  points_.reserve(count);
+  weights_.reserve(count * kStencil);
   for (std::size_t s = 0; s < meshes.size(); ++s) add(problem.series[s], meshes[s]);
 }
 
@@ -70,7 +84,7 @@ void DrivenNlp::bounds(std::span<double> lower, std::span<double> upper) const {
 }
 
 SparsePattern DrivenNlp::jacobian_pattern() const {
-  SparsePattern pattern;
+  SparsePattern pattern = empty_pattern(points_.size() * parameters_ + weights_.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     for (std::size_t j = 0; j < parameters_; ++j) pattern.add(k, j);
     for (std::size_t j = 0; j < points_[k].count; ++j) {
@@ -81,7 +95,8 @@ SparsePattern DrivenNlp::jacobian_pattern() const {
 }
 
 SparsePattern DrivenNlp::hessian_pattern() const {
-  SparsePattern pattern;
+  SparsePattern pattern =
+      empty_pattern(points_.size() * (parameters_ + 1) + parameters_ * (parameters_ + 1) / 2);
   for (std::size_t i = 0; i < parameters_; ++i) {
     for (std::size_t j = 0; j <= i; ++j) pattern.add(i, j);
   }
