@@ -13,6 +13,7 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kTolerance = 1e-7;
+constexpr std::size_t kMostTried = 6;        // experiments that are varied
 constexpr double kHelps = 2.0;               // beyond what a mere repetition gives
 constexpr double kNoiseOfUnseen = 0.01;      // of a state's size, where nothing tells it
 constexpr double kLeastInformation = 1e-10;  // relative: keeps what nothing tells finite
@@ -63,7 +64,9 @@ LaidOutExperiment seeing(LaidOutExperiment experiment, Eigen::Index state, doubl
 
 std::vector<Proposal> proposals(const OdeLayout& layout) {
   std::vector<Proposal> list;
-  for (const auto& original : layout.experiments) {
+  const std::size_t stride = 1 + (layout.experiments.size() - 1) / kMostTried;
+  for (std::size_t e = 0; e < layout.experiments.size(); e += stride) {
+    const auto& original = layout.experiments[e];
     const auto plain = without_mask(original);
     const std::string like = fmt::format("a recording like '{}'", original.source.id);
     list.push_back({like + " from twice the initial state", plain, 2.0});
