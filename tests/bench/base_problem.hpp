@@ -14,7 +14,6 @@ namespace flexspline::bench {
 /// 1000 samples a loop, f and g of three terms, ln h of two, noise of 0.5 % of each loop's peak.
 /// Motion in 0.2 deg, torque in 20 Nm. The draw of the noise is our own.
 inline constexpr double kTruth[] = {1.0, 0.5, 0.25, 8.0, 12.0, 20.0, 0.4, -0.15};
-inline constexpr int kSamples = 1000;
 inline constexpr double kCycles = 3.0;
 
 inline double base_rate(double torque, double x) {
@@ -26,15 +25,15 @@ inline double base_rate(double torque, double x) {
 }
 
 /// Four steps of the classical formula between two samples.
-inline std::vector<double> base_motion(double amplitude, double frequency) {
+inline std::vector<double> base_motion(double amplitude, double frequency, int samples) {
   constexpr int kParts = 4;
-  const double h = kCycles / frequency / kSamples / kParts;
+  const double h = kCycles / frequency / samples / kParts;
   const auto torque = [&](double t) {
     return amplitude * std::sin(2.0 * std::numbers::pi * frequency * t);
   };
   std::vector<double> motion = {0.0};
   double x = 0.0;
-  for (int step = 0; step < kSamples * kParts; ++step) {
+  for (int step = 0; step < samples * kParts; ++step) {
     const double t = step * h;
     const double k1 = base_rate(torque(t), x);
     const double k2 = base_rate(torque(t + 0.5 * h), x + 0.5 * h * k1);
@@ -46,15 +45,16 @@ inline std::vector<double> base_motion(double amplitude, double frequency) {
   return motion;
 }
 
-inline TorsionRecord base_record(double amplitude, double frequency, std::mt19937_64& engine) {
+inline TorsionRecord base_record(double amplitude, double frequency, int samples,
+                                 std::mt19937_64& engine) {
   TorsionRecord record;
-  record.motion = base_motion(amplitude, frequency);
+  record.motion = base_motion(amplitude, frequency, samples);
   double peak = 0.0;
   for (const double x : record.motion) peak = std::max(peak, std::abs(x));
   std::normal_distribution<double> noise(0.0, 0.005 * peak);
   for (std::size_t i = 0; i < record.motion.size(); ++i) {
     if (i > 0) record.motion[i] += noise(engine);
-    record.time.push_back(kCycles / frequency / kSamples * static_cast<double>(i));
+    record.time.push_back(kCycles / frequency / samples * static_cast<double>(i));
     record.effort.push_back(amplitude *
                             std::sin(2.0 * std::numbers::pi * frequency * record.time.back()));
   }
@@ -64,13 +64,17 @@ inline TorsionRecord base_record(double amplitude, double frequency, std::mt1993
   return record;
 }
 
-inline std::vector<TorsionRecord> base_records() {
+/// steps x steps loops over the same range; one loop is the largest and fastest.
+inline std::vector<TorsionRecord> base_records(int steps = 5, int samples = 1000) {
   std::mt19937_64 engine(1);
   std::vector<TorsionRecord> records;
-  for (int a = 0; a < 5; ++a) {
-    for (int f = 0; f < 5; ++f) {
-      records.push_back(base_record(0.3 + 0.3 * a, 0.1 * std::pow(20.0, 0.25 * f), engine));
-      records.back().id = std::to_string(a) + std::to_string(f);
+  for (int a = 1; a <= steps; ++a) {
+    for (int f = 1; f <= steps; ++f) {
+      const double share = steps > 1 ? (a - 1.0) / (steps - 1.0) : 1.0;
+      const double octave = steps > 1 ? (f - 1.0) / (steps - 1.0) : 1.0;
+      records.push_back(
+          base_record(0.3 + 1.2 * share, 0.1 * std::pow(20.0, octave), samples, engine));
+      records.back().id = std::to_string(a) + "/" + std::to_string(f);
     }
   }
   return records;

@@ -34,6 +34,27 @@ void gradient(benchmark::State& state) {
 }
 BENCHMARK(gradient)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 
+// How J'J grows: loops (steps squared), samples a loop, coefficients. One thread.
+void growth(benchmark::State& state) {
+  const auto at = [&state](std::size_t k) { return static_cast<int>(state.range(k)); };
+  const auto problem =
+      *driven_problem(base_records(at(0), at(1)), at(2), at(2), at(3), InitialMotion::rest);
+  Crew crew(1);
+  const auto p = driven_start(problem);
+  IntegrationPlan plan(problem, p, best_instruction_set(), crew);
+  for (auto _ : state) benchmark::DoNotOptimize(plan.stable_sums(p).normal.front());
+}
+BENCHMARK(growth)
+    ->Args({1, 1000, 3, 2})
+    ->Args({2, 1000, 3, 2})
+    ->Args({5, 1000, 3, 2})
+    ->Args({10, 1000, 3, 2})
+    ->Args({5, 250, 3, 2})
+    ->Args({5, 4000, 3, 2})
+    ->Args({5, 1000, 5, 3})
+    ->Args({5, 1000, 10, 5})
+    ->Unit(benchmark::kMicrosecond);
+
 void fit(benchmark::State& state, const char* backend) {
   FitProblem problem{.records = base_records(), .options = {}};
   problem.options.numbers["threads"] = static_cast<double>(state.range(0));
