@@ -11,6 +11,44 @@ namespace {
 constexpr std::size_t kMostParts = 32;
 constexpr std::size_t kReach = 3;  // intervals before an error that may have brought it
 
+// Replaces the constraints c by the change of motions that makes them vanish: J change = -c. The
+// first points of a recording hang together; every other one follows from those before it.
+void solve_for_motions(const SparsePattern& pattern, std::span<const double> values,
+                       std::size_t parameters, const std::vector<DrivenMesh>& meshes,
+                       std::span<double> c) {
+  constexpr std::size_t kFirst = DrivenNlp::kStencil - 1;
+  std::size_t entry = 0;
+  // Calls take(column, value) for every motion in the next row.
+  const auto each_in_row = [&](std::size_t row, auto take) {
+    for (; entry < pattern.size() && pattern.row[entry] == static_cast<int>(row); ++entry) {
+      const auto column = static_cast<std::size_t>(pattern.column[entry]);
+      if (column >= parameters) take(column - parameters, values[entry]);
+    }
+  };
+  std::size_t row = 0;
+  for (const DrivenMesh& mesh : meshes) {
+    const std::size_t base = row;
+    Eigen::Matrix<double, kFirst, kFirst> together;
+    for (; row < base + kFirst; ++row) {
+      each_in_row(row, [&](std::size_t column, double value) {
+        together(static_cast<Eigen::Index>(row - base), static_cast<Eigen::Index>(column - base)) =
+            value;
+      });
+    }
+    Eigen::Map<Eigen::Matrix<double, kFirst, 1>> first(&c[base]);
+    first = (-together.partialPivLu().solve(first)).eval();
+    for (; row < base + mesh.points() - 1; ++row) {
+      double sum = -c[row];
+      double own = 1.0;
+      each_in_row(row, [&](std::size_t column, double value) {
+        if (column == row) own = value;
+        if (column != row) sum -= value * c[column];
+      });
+      c[row] = sum / own;
+    }
+  }
+}
+
 }  // namespace
 
 CollocationMesh::CollocationMesh(const DrivenProblem& problem) : problem_(problem) {
@@ -40,10 +78,8 @@ std::vector<double> CollocationMesh::packed(std::span<const double> p, const Ser
   return x;
 }
 
-// The first points of a recording hang together; every other one follows from those before it.
 std::vector<double> CollocationMesh::foreseen(std::span<const double> p,
                                               const Series& states) const {
-  constexpr std::size_t kFirst = DrivenNlp::kStencil - 1;
   const DrivenNlp nlp(problem_, meshes_);
   std::vector<double> x = packed(p, states);
   std::vector<double> change(nlp.constraints());
@@ -51,39 +87,7 @@ std::vector<double> CollocationMesh::foreseen(std::span<const double> p,
   const SparsePattern pattern = nlp.jacobian_pattern();
   std::vector<double> values(pattern.size());
   nlp.jacobian(x, values);
-  std::size_t entry = 0;
-  std::size_t row = 0;
-  // Calls take(column, value) for every motion in a row.
-  const auto each_in_row = [&](auto take) {
-    for (; entry < pattern.size() && pattern.row[entry] == static_cast<int>(row); ++entry) {
-      const auto column = static_cast<std::size_t>(pattern.column[entry]);
-      if (column >= p.size()) take(column - p.size(), values[entry]);
-    }
-  };
-  for (const DrivenMesh& mesh : meshes_) {
-    const std::size_t base = row;
-    Eigen::Matrix<double, kFirst, kFirst> together;
-    for (; row < base + kFirst; ++row) {
-      each_in_row([&](std::size_t column, double value) {
-        together(static_cast<Eigen::Index>(row - base), static_cast<Eigen::Index>(column - base)) =
-            value;
-      });
-    }
-    Eigen::Map<Eigen::Matrix<double, kFirst, 1>> first(&change[base]);
-    first = (-together.partialPivLu().solve(first)).eval();
-    for (; row < base + mesh.points() - 1; ++row) {
-      double sum = -change[row];
-      double own = 1.0;
-      each_in_row([&](std::size_t column, double value) {
-        if (column == row) {
-          own = value;
-        } else {
-          sum -= value * change[column];
-        }
-      });
-      change[row] = sum / own;
-    }
-  }
+  solve_for_motions(pattern, values, p.size(), meshes_, change);
   for (std::size_t k = 0; k < change.size(); ++k) x[p.size() + k] += change[k];
   return x;
 }

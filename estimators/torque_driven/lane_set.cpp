@@ -64,29 +64,33 @@ void LaneSet::arrange(const std::vector<LanePlan>& plans, InstructionSet set) {
   }
 }
 
-void LaneSet::pack(Packed& packed) const {
+// How long a block is, and whether widths and weights are the same at every sample.
+void LaneSet::measure(Packed& packed) const {
   LaneBlock& block = packed.block;
-  const auto lanes = static_cast<std::size_t>(block.lanes);
   bool even = true;
-  bool valid = true;
+  bool alike = true;
   for (const std::size_t s : packed.series) {
     const DrivenSeries& one = problem_.series[s];
-    block.intervals = std::max(block.intervals, static_cast<long>(one.intervals()));
+    const auto intervals = static_cast<long>(one.intervals());
     even = even && one.step > 0.0;
-    valid = valid && one.all_valid;
-  }
-  for (const std::size_t s : packed.series) {
-    valid = valid && static_cast<long>(problem_.series[s].intervals()) == block.intervals;
+    alike = alike && one.all_valid && (block.intervals == 0 || block.intervals == intervals);
+    block.intervals = std::max(block.intervals, intervals);
   }
   block.parts = packed.plan.parts;
   block.first_parts =
       packed.plan.formula == LaneFormula::radau ? kFirstParts * block.parts : block.parts;
   block.width_stride = even ? 0 : block.lanes;
-  block.weight_stride = valid ? 0 : block.lanes;
+  block.weight_stride = alike ? 0 : block.lanes;
+}
+
+void LaneSet::pack(Packed& packed) const {
+  measure(packed);
+  LaneBlock& block = packed.block;
+  const auto lanes = static_cast<std::size_t>(block.lanes);
   const auto rows = static_cast<std::size_t>(block.intervals);
   const std::size_t torque = torque_rows(packed.plan.formula, block);
-  const std::size_t width = even ? 1 : rows;
-  const std::size_t weight = valid ? 1 : rows;
+  const std::size_t width = block.width_stride == 0 ? 1 : rows;
+  const std::size_t weight = block.weight_stride == 0 ? 1 : rows;
   const std::size_t total = torque + width + 2 * rows + weight + 2 + sums_.normal.size();
   packed.memory.reset(new (kLine) double[total * lanes]);
   double* at = packed.memory.get();

@@ -54,6 +54,7 @@ class LaneSet {
   };
 
   void arrange(const std::vector<LanePlan>& plans, InstructionSet set);
+  void measure(Packed& packed) const;
   void pack(Packed& packed) const;
   void fill_lane(const Packed& packed, std::size_t lane, double* torque, double* width,
                  double* measured, double* weight) const;
