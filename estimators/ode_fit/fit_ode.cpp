@@ -24,10 +24,9 @@ Result<OdeSolution> solve(const OdeLayout& layout, OdeFitMethod method,
   }
 }
 
-std::size_t free_count(const OdeLayout& layout, const OdeSolution& solution) {
+std::vector<bool> on_bounds(const OdeLayout& layout, const OdeSolution& solution) {
   auto q = solution.q;
-  const auto active = settle_on_bounds(layout, q);
-  return static_cast<std::size_t>(std::ranges::count(active, false));
+  return settle_on_bounds(layout, q);
 }
 
 void start_at(OdeLayout& layout, const std::vector<double>& q) {
@@ -45,7 +44,7 @@ Result<OdeSolution> solve_and_weigh(OdeLayout& layout, OdeFitMethod method,
   if (settings.weighting == Weighting::given) return solution;
   for (int round = 0; solution && round < kWeighings; ++round) {
     const auto change =
-        weigh_anew(layout, solution->q, free_count(layout, *solution), settings, noise);
+        weigh_anew(layout, solution->q, on_bounds(layout, *solution), settings, noise);
     if (!change) return tl::unexpected(change.error());
     start_at(layout, solution->q);
     const int iterations = solution->iterations;

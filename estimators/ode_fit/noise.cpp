@@ -23,25 +23,66 @@ struct OutputResiduals {
   }
 };
 
-// Residuals by output, over the sigmas that the layout has at present.
+std::vector<Eigen::Index> free_columns(const std::vector<bool>& bound_active) {
+  std::vector<Eigen::Index> free;
+  for (std::size_t k = 0; k < bound_active.size(); ++k) {
+    if (!bound_active[k]) free.push_back(static_cast<Eigen::Index>(k));
+  }
+  return free;
+}
+
+// Columns of all outputs to length one.
+void scale_slopes(std::vector<OutputResiduals>& outputs, Eigen::Index columns) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(columns);
+  for (const auto& output : outputs) {
+    for (const auto& one : output.series) squares += one.slope.colwise().squaredNorm();
+  }
+  const Eigen::VectorXd length = (squares.array() > 0.0).select(squares.cwiseSqrt(), 1.0);
+  for (auto& output : outputs) {
+    for (auto& one : output.series) one.slope = one.slope * length.cwiseInverse().asDiagonal();
+  }
+}
+
+// Residuals by output with their slopes by what is free, over the sigmas that the layout has.
 Result<std::vector<OutputResiduals>> residuals_of(const OdeLayout& layout,
-                                                  std::span<const double> q, double tolerance) {
+                                                  std::span<const double> q,
+                                                  const std::vector<Eigen::Index>& free,
+                                                  double tolerance) {
   const ShootingProblem shots(layout, tolerance, 1);
   std::vector<OutputResiduals> result;
   for (std::size_t b = 0; b < shots.blocks(); ++b) {
     const auto& experiment = shots.experiment(b);
     std::vector<double> residual(shots.residuals(b));
-    auto done = shots.evaluate(b, q, residual, {});
+    RowMajorMatrix slopes(static_cast<Eigen::Index>(residual.size()),
+                          static_cast<Eigen::Index>(q.size()));
+    auto done =
+        shots.evaluate(b, q, residual, {slopes.data(), static_cast<std::size_t>(slopes.size())});
     if (!done) return tl::unexpected(std::move(done).error());
     result.resize(std::max(result.size(), experiment.outputs()));
     for (std::size_t o = 0; o < experiment.outputs(); ++o) {
       auto rows = rows_of(experiment, o);
-      TimedSeries series{std::move(rows.time), {}};
+      TimedSeries series{std::move(rows.time), {}, {}};
+      const std::vector<Eigen::Index> places(rows.row.begin(), rows.row.end());
+      series.slope = slopes(places, free);
       for (const std::size_t row : rows.row) series.value.push_back(residual[row]);
       result[o].series.push_back(std::move(series));
     }
   }
+  scale_slopes(result, static_cast<Eigen::Index>(free.size()));
   return result;
+}
+
+// What all other outputs say of the parameters, with the noise they have at present.
+OtherInformation others_than(std::size_t output, const std::vector<OutputResiduals>& outputs,
+                             const std::vector<OutputNoise>& noise, Eigen::Index columns) {
+  OtherInformation sum{Eigen::MatrixXd::Zero(columns, columns), Eigen::VectorXd::Zero(columns)};
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    if (o == output || outputs[o].series.empty()) continue;
+    const auto one = information_of(outputs[o].series, {1.0, noise[o].share, noise[o].time});
+    sum.information += one.information;
+    sum.gradient += one.gradient;
+  }
+  return sum;
 }
 
 double spread_of(std::vector<double> values, const RobustLoss& loss) {
@@ -56,18 +97,6 @@ double spread_of(std::vector<double> values, const RobustLoss& loss) {
   return kNormalMad * *middle;
 }
 
-ColouredNoise noise_of(const OutputResiduals& output, double growth, const RobustLoss& loss,
-                       Weighting weighting) {
-  ColouredNoise noise;
-  if (weighting == Weighting::coloured) {
-    noise = estimate_noise(output.series);
-  } else {
-    noise.sigma = spread_of(output.pooled(), loss);
-  }
-  noise.sigma *= growth;
-  return noise;
-}
-
 // sigma takes the size of the noise; the filter has the correlation of unit variance.
 void apply(OdeLayout& layout, std::size_t output, const ColouredNoise& noise, bool coloured) {
   for (auto& experiment : layout.experiments) {
@@ -80,34 +109,42 @@ void apply(OdeLayout& layout, std::size_t output, const ColouredNoise& noise, bo
   }
 }
 
+double change_of(const OutputNoise& before, const ColouredNoise& now) {
+  const double time = now.time > 0.0 && before.time > 0.0
+                          ? now.share * std::abs(std::log(now.time / before.time))
+                          : 0.0;
+  return std::max({std::abs(std::log(now.sigma)), std::abs(now.share - before.share), time});
+}
+
 }  // namespace
 
-Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q, std::size_t free,
-                          const OdeFitSettings& settings, std::vector<OutputNoise>& noise) {
-  const auto outputs = residuals_of(layout, q, settings.integration_tolerance);
+Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q,
+                          const std::vector<bool>& bound_active, const OdeFitSettings& settings,
+                          std::vector<OutputNoise>& noise) {
+  const auto free = free_columns(bound_active);
+  const auto columns = static_cast<Eigen::Index>(free.size());
+  const auto outputs = residuals_of(layout, q, free, settings.integration_tolerance);
   if (!outputs) return tl::unexpected(outputs.error());
   double rows = 0.0;
   for (const auto& one : *outputs) rows += static_cast<double>(one.pooled().size());
-  const double growth = std::sqrt(rows / std::max(1.0, rows - static_cast<double>(free)));
-  noise.resize(outputs->size());
+  const double growth = std::sqrt(rows / std::max(1.0, rows - static_cast<double>(free.size())));
+  const bool coloured = settings.weighting == Weighting::coloured;
+  const auto before = noise;
   double change = 0.0;
   for (std::size_t o = 0; o < outputs->size(); ++o) {
-    if ((*outputs)[o].pooled().empty()) {
-      apply(layout, o, {}, settings.weighting == Weighting::coloured);
-      continue;
+    const auto& output = (*outputs)[o];
+    ColouredNoise found;
+    if (!output.pooled().empty()) {
+      found = coloured ? estimate_noise(output.series, others_than(o, *outputs, before, columns))
+                       : ColouredNoise{growth * spread_of(output.pooled(), layout.loss), 0.0, 0.0};
     }
-    const auto found = noise_of((*outputs)[o], growth, layout.loss, settings.weighting);
     if (!(found.sigma * noise[o].factor > kLeast)) {
       return failure(ErrorCode::numerics,
                      fmt::format("output {} leaves nothing to estimate its noise from", o + 1),
                      "weigh by sigmas that are given");
     }
-    change =
-        std::max({change, std::abs(std::log(found.sigma)), std::abs(found.share - noise[o].share),
-                  found.time > 0.0 && noise[o].time > 0.0
-                      ? found.share * std::abs(std::log(found.time / noise[o].time))
-                      : 0.0});
-    apply(layout, o, found, settings.weighting == Weighting::coloured);
+    change = std::max(change, change_of(noise[o], found));
+    apply(layout, o, found, coloured);
     noise[o] = {noise[o].factor * found.sigma, found.share, found.time};
   }
   return change;

@@ -4,11 +4,13 @@
 
 namespace flexspline::estimators {
 
-/// Weighs the layout's outputs anew by what they leave at q, with `free` parameters taken from it,
-/// and keeps a record in `noise` (against the sigmas of the description). Outputs of the same
-/// number share their noise over experiments. Returns the largest relative change of a weight.
-/// Errors: numerics, where q cannot be integrated or an output is fitted without any residual.
-Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q, std::size_t free,
-                          const OdeFitSettings& settings, std::vector<OutputNoise>& noise);
+/// Weighs the layout's outputs anew by what they leave at q, with the parameters that are not on a
+/// bound taken from it, and keeps a record in `noise` (against the sigmas of the description).
+/// Outputs of the same number share their noise over experiments. Returns the largest relative
+/// change of a weight. Errors: numerics, where q cannot be integrated or an output is fitted
+/// without any residual.
+Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q,
+                          const std::vector<bool>& bound_active, const OdeFitSettings& settings,
+                          std::vector<OutputNoise>& noise);
 
 }  // namespace flexspline::estimators

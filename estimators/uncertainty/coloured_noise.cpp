@@ -4,12 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Dense>
+#include <boost/math/tools/minima.hpp>
+
 namespace flexspline::estimators {
 namespace {
 
 constexpr double kMostShare = 0.999;  // some white noise keeps the filter regular
 constexpr int kTimes = 16;            // of the first search
 constexpr int kShares = 10;
+constexpr double kRidge = 1e-12;  // of the information, where no series tells a parameter
+constexpr int kBits = 30;         // of ln sigma
 constexpr double kFinest = 1e-7;  // last step of the search, in ln time and share
 
 struct Spread {
@@ -31,23 +36,65 @@ Spread spread_of(std::span<const TimedSeries> series) {
   return spread;
 }
 
-// Minus twice the log-likelihood at the best sigma, without constants.
-double deviance(std::span<const TimedSeries> series, double share, double time, double& sigma) {
-  const ColouredNoise unit{1.0, share, time};
-  double sum = 0.0;
+// Sums over whitened series, at unit variance.
+struct Sums {
+  OtherInformation by_parameters;
+  double squares = 0.0;
   double log_variance = 0.0;
   double count = 0.0;
+};
+
+Sums sums_of(std::span<const TimedSeries> series, const ColouredNoise& noise) {
+  Sums sums;
+  const Eigen::Index width = series.empty() ? 0 : series.front().slope.cols();
+  sums.by_parameters = {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)};
   for (const auto& one : series) {
-    const WhiteningFilter filter(unit, one.time);
+    const WhiteningFilter filter(noise, one.time);
     auto value = one.value;
     filter.whiten(value);
-    for (double v : value) sum += v * v;
-    log_variance += filter.log_variance();
-    count += static_cast<double>(value.size());
+    const Eigen::Map<const Eigen::VectorXd> v(value.data(),
+                                              static_cast<Eigen::Index>(value.size()));
+    Eigen::MatrixXd slope = one.slope;
+    for (Eigen::Index k = 0; k < width; ++k) filter.whiten({slope.col(k).data(), value.size()});
+    sums.by_parameters.information += slope.transpose() * slope;
+    sums.by_parameters.gradient += slope.transpose() * v;
+    sums.squares += v.squaredNorm();
+    sums.log_variance += filter.log_variance();
+    sums.count += static_cast<double>(value.size());
   }
-  sigma = std::sqrt(sum / count);
-  return sum > 0.0 ? count * std::log(sum / count) + log_variance
-                   : -std::numeric_limits<double>::infinity();
+  return sums;
+}
+
+// Minus twice the restricted log-likelihood at a variance, without constants: parameters follow.
+double restricted(const Sums& sums, const OtherInformation& other, double log_sigma) {
+  const double weight = std::exp(-2.0 * log_sigma);
+  Eigen::MatrixXd normal = weight * sums.by_parameters.information;
+  Eigen::VectorXd right = weight * sums.by_parameters.gradient;
+  if (other.gradient.size() == right.size()) {
+    normal += other.information;
+    right += other.gradient;
+  }
+  const double size = normal.diagonal().maxCoeff();
+  normal.diagonal().array() += kRidge * size;
+  const Eigen::LDLT<Eigen::MatrixXd> solved(normal);
+  return 2.0 * sums.count * log_sigma + sums.log_variance + weight * sums.squares -
+         right.dot(solved.solve(right)) + solved.vectorD().array().abs().log().sum();
+}
+
+// Minus twice the log-likelihood at the best sigma, without constants.
+double deviance(std::span<const TimedSeries> series, const OtherInformation& other, double share,
+                double time, double& sigma) {
+  const Sums sums = sums_of(series, {1.0, share, time});
+  sigma = std::sqrt(sums.squares / sums.count);
+  if (!(sums.squares > 0.0)) return -std::numeric_limits<double>::infinity();
+  const double plain = std::log(sigma);
+  if (sums.by_parameters.gradient.size() == 0) {
+    return 2.0 * sums.count * plain + sums.log_variance;
+  }
+  const auto [log_sigma, value] = boost::math::tools::brent_find_minima(
+      [&](double s) { return restricted(sums, other, s); }, plain - 2.0, plain + 2.0, kBits);
+  sigma = std::exp(log_sigma);
+  return value;
 }
 
 struct Point {
@@ -56,7 +103,8 @@ struct Point {
   double deviance = std::numeric_limits<double>::infinity();
 };
 
-Point coarse_search(std::span<const TimedSeries> series, const Spread& spread) {
+Point coarse_search(std::span<const TimedSeries> series, const OtherInformation& other,
+                    const Spread& spread) {
   Point best;
   double sigma = 0.0;
   const double from = std::log(0.3 * spread.shortest);
@@ -64,7 +112,7 @@ Point coarse_search(std::span<const TimedSeries> series, const Spread& spread) {
   for (int t = 0; t < kTimes; ++t) {
     for (int s = 1; s <= kShares; ++s) {
       Point here{kMostShare * s / kShares, from + (to - from) * t / (kTimes - 1), 0.0};
-      here.deviance = deviance(series, here.share, std::exp(here.log_time), sigma);
+      here.deviance = deviance(series, other, here.share, std::exp(here.log_time), sigma);
       if (here.deviance < best.deviance) best = here;
     }
   }
@@ -72,7 +120,8 @@ Point coarse_search(std::span<const TimedSeries> series, const Spread& spread) {
 }
 
 // Compass search: derivatives are not worth having here.
-Point refined(std::span<const TimedSeries> series, const Spread& spread, Point best) {
+Point refined(std::span<const TimedSeries> series, const OtherInformation& other,
+              const Spread& spread, Point best) {
   double sigma = 0.0;
   const double from = std::log(0.1 * spread.shortest);
   const double to = std::log(2.0 * spread.longest);
@@ -85,7 +134,7 @@ Point refined(std::span<const TimedSeries> series, const Spread& spread, Point b
     for (const auto& move : moves) {
       Point trial{std::clamp(best.share + move[0], 0.0, kMostShare),
                   std::clamp(best.log_time + move[1], from, to), 0.0};
-      trial.deviance = deviance(series, trial.share, std::exp(trial.log_time), sigma);
+      trial.deviance = deviance(series, other, trial.share, std::exp(trial.log_time), sigma);
       if (trial.deviance < next.deviance) next = trial;
     }
     if (!(next.deviance < best.deviance)) {
@@ -134,17 +183,21 @@ double WhiteningFilter::log_variance() const {
   return sum;
 }
 
-ColouredNoise estimate_noise(std::span<const TimedSeries> series) {
+OtherInformation information_of(std::span<const TimedSeries> series, const ColouredNoise& noise) {
+  return sums_of(series, noise).by_parameters;
+}
+
+ColouredNoise estimate_noise(std::span<const TimedSeries> series, const OtherInformation& other) {
   const Spread spread = spread_of(series);
   ColouredNoise white;
   if (spread.count == 0) return white;
-  const double flat = deviance(series, 0.0, 0.0, white.sigma);
+  const double flat = deviance(series, other, 0.0, 0.0, white.sigma);
   if (!(spread.longest > 0.0) || !std::isfinite(flat)) return white;
-  const Point best = refined(series, spread, coarse_search(series, spread));
+  const Point best = refined(series, other, spread, coarse_search(series, other, spread));
   const double asked = 2.0 * std::log(static_cast<double>(spread.count));
   if (!(best.deviance + asked < flat)) return white;
   ColouredNoise noise{1.0, best.share, std::exp(best.log_time)};
-  deviance(series, noise.share, noise.time, noise.sigma);
+  deviance(series, other, noise.share, noise.time, noise.sigma);
   return noise;
 }
 

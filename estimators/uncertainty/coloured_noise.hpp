@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace flexspline::estimators {
 
 /// Noise of a measured series: a first-order process (in even steps an AR(1)) beside white noise.
@@ -16,12 +18,24 @@ struct ColouredNoise {
 struct TimedSeries {
   std::vector<double> time;
   std::vector<double> value;
+  Eigen::MatrixXd slope{};  ///< by the parameters that were fitted to it, a row an instant
+};
+
+/// What other measurements say of the same parameters, at unit variance: J'J and J'r.
+struct OtherInformation {
+  Eigen::MatrixXd information{};
+  Eigen::VectorXd gradient{};
 };
 
 /// Maximum likelihood over all series, by the prediction errors of the scalar Kalman filter
-/// (Schweppe 1965). White where a colour gains less than the Bayesian criterion asks of two
-/// parameters.
-ColouredNoise estimate_noise(std::span<const TimedSeries> series);
+/// (Schweppe 1965); restricted (Patterson and Thompson 1971) where slopes are given, since the
+/// parameters took some of the noise with them, of slow noise most. White where a colour gains less
+/// than the Bayesian criterion asks of two parameters.
+ColouredNoise estimate_noise(std::span<const TimedSeries> series,
+                             const OtherInformation& other = {});
+
+/// J'J and J'r of series in such noise.
+OtherInformation information_of(std::span<const TimedSeries> series, const ColouredNoise& noise);
 
 /// Turns residuals into the innovations of such noise over their standard deviations: independent
 /// and of unit variance, so that their least squares is maximum likelihood. Linear, so Jacobians

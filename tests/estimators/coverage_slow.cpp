@@ -7,7 +7,7 @@
 namespace flexspline::estimators {
 namespace {
 
-constexpr unsigned kReplicates = 60;
+constexpr unsigned kReplicates = 250;
 
 struct Tally {
   int held = 0;
@@ -30,8 +30,8 @@ void count(const FunctionBand& band, const std::function<double(double)>& truth,
   }
 }
 
-// Of 60 independent intervals at 95 %, 53 to 60 hold in 99 of 100 studies (binomial), that is 88 %
-// or more; the five points of a replicate are not independent, and the splines add their own bias.
+// Of 250 independent intervals at 95 %, 91.2 to 98.4 % hold in 99 of 100 studies (binomial); the
+// points of a replicate are not independent.
 // Below 0.1 of the range g^-1 is counted on its own: there noise puts its first slope on the floor
 // that keeps it increasing, and a band that counted that slope as known would be too narrow.
 TEST(Coverage, OfTheBandsOfFAndGAndH) {
@@ -60,7 +60,8 @@ TEST(Coverage, OfTheBandsOfFAndGAndH) {
          {std::pair{"f", f}, {"g_inverse", g}, {"g_inverse_slow", slow}, {"h", h}}) {
       const double share = static_cast<double>(tally.held) / tally.asked;
       std::printf("%s by %s: %.4f of %d\n", name, simulate.c_str(), share, tally.asked);
-      EXPECT_GE(share, 0.88) << name << " by " << simulate;
+      EXPECT_GE(share, 0.912) << name << " by " << simulate;
+      EXPECT_LE(share, 0.984) << name << " by " << simulate;
     }
   }
 }
