@@ -49,8 +49,13 @@ void odd_columns(const IntegratedBasis& basis, const ArrayXd& x, Eigen::Ref<Matr
   }
 }
 
+// The torsion from where it is unloaded: shape[2] is the zero's error over the range.
+ArrayXd wound(const Frame& frame, std::span<const double> shape) {
+  return frame.torsion / frame.torsion_range - shape[2];
+}
+
 ArrayXd modulation(const Frame& frame, std::span<const double> shape) {
-  const ArrayXd x2 = (frame.torsion / frame.torsion_range).square();
+  const ArrayXd x2 = wound(frame, shape).square();
   return (shape[0] * x2 + shape[1] * x2.square()).max(-2.0).min(2.0).exp();
 }
 
@@ -62,7 +67,7 @@ BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) 
   const Index g = static_cast<Index>(dissipative.size());
   BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
                     Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g};
-  odd_columns(elastic, frame.torsion / frame.torsion_range, c.columns.leftCols(f));
+  odd_columns(elastic, wound(frame, shape), c.columns.leftCols(f));
   odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
               c.columns.middleCols(f, g));
   if (offset) {
@@ -91,10 +96,13 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
   return c;
 }
 
+// Dry friction saturates as tanh(w/w_e), as w/sqrt(w^2 + w_e^2), or between the two.
 BaselineColumns motor_columns(const Frame& frame, std::span<const double> shape) {
-  BaselineColumns c{MatrixXd(frame.rows(), 2), Eigen::VectorXd::Zero(2), 0, 2};
+  BaselineColumns c{MatrixXd(frame.rows(), 3), Eigen::VectorXd::Zero(3), 0, 3};
+  const ArrayXd slow = frame.motor_speed / coulomb_width(frame, Equation::motor, shape);
   c.columns.col(0) = frame.motor_speed;
-  c.columns.col(1) = (frame.motor_speed / coulomb_width(frame, Equation::motor, shape)).tanh();
+  c.columns.col(1) = slow.tanh();
+  c.columns.col(2) = slow / (1.0 + slow.square()).sqrt();
   return c;
 }
 

@@ -15,6 +15,7 @@ using Eigen::Index;
 using estimators::SeparableBlock;
 using estimators::ShapeBound;
 
+constexpr double kMostZeroError = 0.1;  // of the torsion, over its range
 constexpr double kFree = -std::numeric_limits<double>::infinity();
 
 bool acts_on(const ActiveCause& cause, Equation equation) {
@@ -64,7 +65,7 @@ class Layout {
     if (fits(Equation::torsion) && frame_.travels) {
       add(std::log(1e-4 * frame_.rate_range), std::log(0.3 * frame_.rate_range));
     } else if (fits(Equation::torsion)) {
-      add(-2.0, 2.0), add(-2.0, 2.0);
+      add(-2.0, 2.0), add(-2.0, 2.0), add(-kMostZeroError, kMostZeroError);
     }
     if (fits(Equation::motor)) {
       add(std::log(1e-4 * frame_.speed_range), std::log(0.3 * frame_.speed_range));
@@ -255,7 +256,7 @@ DriveModel first_guess(const Frame& frame) {
   if (frame.travels) {
     model.torsion_shape = {std::log(0.02 * frame.rate_range)};
   } else {
-    model.torsion_shape = {0.0, 0.0};
+    model.torsion_shape = {0.0, 0.0, 0.0};
   }
   if (frame.has(Equation::motor)) model.motor_shape = {std::log(0.005 * frame.speed_range)};
   return model;

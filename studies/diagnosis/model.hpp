@@ -22,11 +22,13 @@ using PerEquation = std::array<Eigen::ArrayXd, 3>;
 inline std::size_t index_of(Equation equation) { return static_cast<std::size_t>(equation); }
 
 /// The baseline and causes, as fitted. Baseline: torsion tau = f(phi) + g^-1(phi'/h(phi)), f and
-/// g^-1 odd and rising, ln h = c1 x^2 + c2 x^4, with an offset on a specimen; a travelling
+/// g^-1 odd and rising, ln h = c1 x^2 + c2 x^4, phi from a zero of its own, with an offset on a
+/// specimen; a travelling
 /// specimen f(angle) free, Coulomb and viscous friction; load tau = J2 theta_l'' + B2 theta_l';
-/// motor tau_m = J1 theta_m'' + B1 theta_m' + tc tanh(theta_m'/w) + tau/N.
+/// motor tau_m = J1 theta_m'' + B1 theta_m' + tau/N and dry friction that saturates at w as tanh
+/// or its algebraic kin.
 struct DriveModel {
-  std::vector<double> torsion_shape;  ///< c1, c2; travelling: ln of the Coulomb rate
+  std::vector<double> torsion_shape;  ///< c1, c2, zero; travelling: ln of the Coulomb rate
   std::vector<double> motor_shape;    ///< ln w
   std::vector<ActiveCause> causes;
   std::vector<Eigen::VectorXd> own;           ///< linear coefficients of the baseline by equation

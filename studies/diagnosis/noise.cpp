@@ -12,8 +12,8 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr Index kHalfNarrow = 25;
-constexpr Index kHalfWide = 40;
-constexpr Index kLags = 8;
+constexpr Index kHalfWide = 80;
+constexpr Index kLags = 40;
 
 // Residual less running parabola, where the window fits; segment by segment.
 std::vector<ArrayXd> fast_part(const Frame& frame, const ArrayXd& residual, Index half) {

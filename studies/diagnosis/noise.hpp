@@ -15,7 +15,7 @@ struct EquationNoise {
 /// model error that changes within a few samples counts as noise.
 std::vector<double> noise_levels(const Frame& frame, const Eigen::ArrayXd& residual);
 
-/// 1 + 2 sum of autocorrelations over eight lags, of the residual about a running parabola of 81
+/// 1 + 2 sum of autocorrelations over forty lags, of the residual about a running parabola of 161
 /// samples; at least 1.
 double noise_colour(const Frame& frame, const Eigen::ArrayXd& residual);
 

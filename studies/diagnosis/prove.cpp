@@ -123,7 +123,7 @@ Result<void> prove_causes(const Frame& frame, const Selection& s, const Findings
     }
     const std::size_t e = index_of(equation);
     const ArrayXd rows = out * frame.usable;
-    const auto without = reduced(frame, final, i, kSteps);
+    const auto without = reduced(frame, final, s.immaterial.size() + i, kSteps);
     if (!without) return tl::unexpected(without.error());
     proof.cause_ratio.push_back(rms_on(final.fit.residual[e], rows) /
                                 rms_on(without->residual[e], rows));

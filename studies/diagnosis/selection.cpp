@@ -12,7 +12,6 @@ constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
   if (trial.cause.row == nullptr || trial.net_gain < limits.net_gain) return false;
-  if (trial.size < limits.size) return false;
   return trial.cause.form->transform != nullptr || trial.size < limits.taken_up;
 }
 
@@ -118,6 +117,7 @@ Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selecti
 
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
   Accepted accepted{std::move(trials[best]), {}, {}};
+  accepted.material = accepted.trial.size >= limits.size;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr) continue;
     const bool alike =
@@ -125,6 +125,69 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
     (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
   }
   return accepted;
+}
+
+// Immaterial causes first, in the lists as in the model.
+void put_immaterial_first(Selection& s) {
+  DriveModel& model = s.final.fit.model;
+  const DriveModel mixed = model;
+  std::vector<Accepted> material;
+  model.causes.clear();
+  model.coefficients.clear();
+  for (const bool wanted : {false, true}) {
+    for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+      if (s.accepted[i].material != wanted) continue;
+      model.causes.push_back(mixed.causes[i]);
+      model.coefficients.push_back(mixed.coefficients[i]);
+      (wanted ? material : s.immaterial).push_back(s.accepted[i]);
+    }
+  }
+  s.accepted = std::move(material);
+}
+
+// The baseline that the causes are measured against: all but the material ones.
+Result<void> fit_baseline_again(const Frame& frame, Selection& s) {
+  if (s.immaterial.empty()) return {};
+  if (s.accepted.empty()) {
+    s.baseline = s.final;
+    return {};
+  }
+  Findings base = s.final;
+  for (std::size_t i = s.accepted.size(); i > 0; --i) {
+    auto fit = reduced(frame, base, s.immaterial.size() + i - 1, kRefreshSteps);
+    if (!fit) return tl::unexpected(fit.error());
+    base.fit = std::move(*fit);
+  }
+  s.baseline = std::move(base);
+  return refresh(frame, s.baseline, kRefreshSteps);
+}
+
+Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
+                    const std::function<void(double, std::string_view)>& progress) {
+  for (int round = 0; round < limits.rounds; ++round) {
+    if (progress) progress(0.2 + 0.07 * round, fmt::format("trying causes, round {}", round + 1));
+    auto trials = try_causes(frame, s.final);
+    const auto best =
+        std::ranges::find_if(trials, [&](const Trial& trial) { return admissible(trial, limits); });
+    if (best == trials.end()) {
+      s.last_field = std::move(trials);
+      return {};
+    }
+    s.final.fit = best->fit;
+    s.accepted.push_back(
+        accept(std::move(trials), static_cast<std::size_t>(best - trials.begin()), limits));
+    const auto again = refresh(frame, s.final, kRefreshSteps);
+    if (!again) return again;
+  }
+  return {};
+}
+
+void withdraw(Selection& s) {
+  s.withdrawn = std::move(s.accepted);
+  s.accepted.clear();
+  s.final = s.baseline;
+  s.after = s.before;
+  s.removed = 0.0;
 }
 
 }  // namespace
@@ -136,33 +199,17 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   Selection s;
   s.baseline = *baseline;
   s.final = std::move(*baseline);
+  const auto found = search(frame, limits, s, progress);
+  if (!found) return tl::unexpected(found.error());
+  const auto cleared = take_out_needless(frame, limits, s);
+  if (!cleared) return tl::unexpected(cleared.error());
+  put_immaterial_first(s);
+  const auto based = fit_baseline_again(frame, s);
+  if (!based) return tl::unexpected(based.error());
   s.before = locate(frame, s.baseline);
-  for (int round = 0; round < limits.rounds; ++round) {
-    if (progress) progress(0.2 + 0.12 * round, fmt::format("trying causes, round {}", round + 1));
-    auto trials = try_causes(frame, s.final);
-    const auto best =
-        std::ranges::find_if(trials, [&](const Trial& trial) { return admissible(trial, limits); });
-    if (best == trials.end()) {
-      s.last_field = std::move(trials);
-      break;
-    }
-    s.final.fit = best->fit;
-    s.accepted.push_back(
-        accept(std::move(trials), static_cast<std::size_t>(best - trials.begin()), limits));
-    const auto again = refresh(frame, s.final, kRefreshSteps);
-    if (!again) return tl::unexpected(again.error());
-  }
-  const auto done = take_out_needless(frame, limits, s);
-  if (!done) return tl::unexpected(done.error());
   s.after = locate(frame, s.final);
   measure_success(frame, s);
-  if (!s.accepted.empty() && !explains_enough(frame, s, limits)) {
-    s.withdrawn = std::move(s.accepted);
-    s.accepted.clear();
-    s.final = s.baseline;
-    s.after = s.before;
-    s.removed = 0.0;
-  }
+  if (!s.accepted.empty() && !explains_enough(frame, s, limits)) withdraw(s);
   s.remainder = (!s.after.empty() && is_left(s.after.front(), limits)) ||
                 worst_misfit(frame, s.final) > 2.0 * limits.misfit;
   return s;

@@ -12,7 +12,7 @@ namespace flexspline::studies {
 /// from: docs/calibration.md.
 struct Limits {
   double net_gain = 45.0;         ///< least net gain of a cause
-  double size = 0.003;            ///< least size of a cause, share of the largest torque
+  double size = 0.008;            ///< least size of a cause, share of the largest torque
   double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
   double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
   double remainder = 60.0;        ///< statistic of a coordinate that says something is left
@@ -20,7 +20,7 @@ struct Limits {
   double shadow = 0.01;           ///< gain over that of a larger cause of the same equation
   double explained = 0.75;        ///< share of the misfit that the causes have to remove
   double misfit = 1.25;           ///< mean square over noise that counts as explained
-  int rounds = 4;
+  int rounds = 7;
 };
 
 /// A cause that was accepted, with the others that did nearly as well.
@@ -28,12 +28,14 @@ struct Accepted {
   Trial trial;
   std::vector<Trial> rivals;  ///< alternatives, best first
   std::vector<Trial> field;   ///< every other cause refined in that round
+  bool material = true;       ///< else it is in the model, but too small to be named
 };
 
 /// The end of the search.
 struct Selection {
-  Findings baseline;
-  Findings final;  ///< with the accepted causes, or the baseline
+  Findings baseline;                 ///< with the immaterial causes, which come first in its model
+  Findings final;                    ///< with the accepted causes behind them, or the baseline
+  std::vector<Accepted> immaterial;  ///< significant, but too small to be named
   std::vector<Accepted> accepted;
   std::vector<Trial> last_field;        ///< of the round in which none was accepted
   std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual
@@ -44,7 +46,8 @@ struct Selection {
 };
 
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
-/// out again. Causes that together leave most of the misfit are withdrawn.
+/// out again. What is too small to matter becomes part of the baseline. Causes that together leave
+/// most of the misfit are withdrawn.
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress);
 

@@ -102,7 +102,6 @@ std::string outcome_of(const Trial& t, bool accepted, bool rival, bool withdrawn
   if (accepted) return "accepted";
   if (rival) return "explains the same signal nearly as well: an alternative";
   if (t.net_gain < limits.net_gain) return "gains no more than noise would";
-  if (t.size < limits.size) return "too small to matter";
   if (t.cause.form->transform == nullptr && t.size > limits.taken_up) {
     return "what it adds is taken up by the baseline";
   }
@@ -149,7 +148,8 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.probability = belief(a);
     cause.size_fraction = a.trial.size;
     cause.equation = a.trial.cause.form->equation;
-    cause.parameters = parameters_of(a.trial, frame, s.final.fit.model.coefficients[i]);
+    cause.parameters =
+        parameters_of(a.trial, frame, s.final.fit.model.coefficients[s.immaterial.size() + i]);
     cause.alternatives = ids_of(a.rivals, kMostAlternatives);
     cause.evidence.score_p_value = std::exp(-0.5 * std::min(a.trial.gain, 600.0));
     cause.evidence.delta_bic = -a.trial.net_gain;
@@ -212,6 +212,11 @@ std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& 
 std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& limits) {
   std::vector<TriedCandidate> list;
   int round = 0;
+  for (const Accepted& a : s.immaterial) {
+    list.push_back(tried(a.trial, ++round,
+                         fmt::format("there, but {:.2g} % of torque is too small to be named",
+                                     100.0 * a.trial.size)));
+  }
   for (const Accepted& a : s.accepted) add_round(a, ++round, false, limits, list);
   for (const Accepted& a : s.withdrawn) add_round(a, ++round, true, limits, list);
   ++round;
