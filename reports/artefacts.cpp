@@ -6,10 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checksum.hpp"
 #include "flexspline/core/write_file.hpp"
-#include "json_fields.hpp"
 #include "parse_artefacts.hpp"
+#include "read_checked.hpp"
 
 namespace flexspline::reports {
 namespace {
@@ -37,16 +36,10 @@ auto read_one(const fs::path& path, std::string_view schema, Parse parse,
     unreadable.push_back(shown.generic_string() + ": " + reason);
     return std::nullopt;
   };
-  const auto text = read_file(path);
-  if (!text) return refuse(text.error().problem);
+  const auto artefact = read_checked(path, schema);
+  if (!artefact) return refuse(artefact.error().problem);
   try {
-    const json artefact = json::parse(*text);
-    const std::string found = text_in(artefact, "schema");
-    if (found != schema) {
-      return refuse("schema is \"" + found + "\", not \"" + std::string(schema) + "\"");
-    }
-    if (!checksum_holds(*text)) return refuse("its checksum does not hold");
-    return parse(artefact);
+    return parse(*artefact);
   } catch (const json::exception& error) {
     return refuse(error.what());
   }

@@ -49,6 +49,7 @@ Json panel_json(const Panel& panel) {
   for (const Mark& mark : panel.marks) {
     json["marks"].push_back({{"at", mark.at}, {"label", mark.label}});
   }
+  for (const Span& span : panel.spans) json["spans"].push_back({span.from, span.to});
   for (const HeatCell& cell : panel.cells) {
     json["cells"].push_back({cell.column, cell.row, rounded(cell.value, 3), cell.note});
   }
@@ -59,6 +60,7 @@ Json figure_json(const Figure& figure) {
   Json json = {{"id", figure.id},           {"kind", figure.kind}, {"title", figure.title},
                {"caption", figure.caption}, {"alt", figure.alt},   {"pickers", figure.pickers}};
   if (figure.scale) json["scale"] = {figure.scale->first, figure.scale->second};
+  if (figure.kind == "heatmap") json["cell_unit"] = figure.cell_unit;
   if (!figure.derived_from.empty()) {
     json["derived_from"] = figure.derived_from;
     json["y_label"] = figure.y_label;
@@ -90,6 +92,7 @@ Json table_json(const Table& table) {
 struct ContentJson {
   Json operator()(const Verdict& verdict) const { return {{"verdict", verdict.text}}; }
   Json operator()(const Paragraph& paragraph) const { return {{"paragraph", paragraph.text}}; }
+  Json operator()(const Heading& heading) const { return {{"heading", heading.text}}; }
   Json operator()(const Listing& listing) const { return {{"listing", listing.text}}; }
   Json operator()(const Figure& figure) const { return {{"figure", figure_json(figure)}}; }
   Json operator()(const Table& table) const { return {{"table", table_json(table)}}; }

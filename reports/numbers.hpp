@@ -26,6 +26,9 @@ std::vector<double> thinned(const std::vector<double>& values, std::size_t most)
 /// Middle of the finite values; NaN where there are none.
 double median(std::vector<double> values);
 
+/// An id as words: stribeck_friction is "stribeck friction".
+std::string words(std::string id);
+
 /// Lower-case letters, digits and hyphens, for ids and file names.
 std::string slug(const std::string& name);
 

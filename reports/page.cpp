@@ -59,6 +59,9 @@ struct ContentHtml {
   std::string operator()(const Paragraph& paragraph) const {
     return "<p>" + escaped(paragraph.text) + "</p>\n";
   }
+  std::string operator()(const Heading& heading) const {
+    return "<h3>" + escaped(heading.text) + "</h3>\n";
+  }
   std::string operator()(const Listing& listing) const {
     return "<pre tabindex=\"0\"><code>" + escaped(listing.text) + "</code></pre>\n";
   }

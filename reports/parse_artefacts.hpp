@@ -3,6 +3,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "flexspline/reports/artefacts.hpp"
+#include "flexspline/reports/diagnosis_view.hpp"
+#include "flexspline/reports/trial_view.hpp"
 
 namespace flexspline::reports {
 
@@ -10,5 +12,7 @@ namespace flexspline::reports {
 Input parse_input(const nlohmann::json& artefact);
 Case parse_case(const nlohmann::json& artefact);
 Paper parse_paper(const nlohmann::json& artefact);
+DiagnosisView parse_diagnosis(const nlohmann::json& artefact);
+TrialView parse_trial(const nlohmann::json& artefact);
 
 }  // namespace flexspline::reports

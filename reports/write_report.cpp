@@ -3,8 +3,10 @@
 
 #include "document_json.hpp"
 #include "flexspline/core/write_file.hpp"
+#include "flexspline/reports/diagnosis_view.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/reports/section.hpp"
+#include "flexspline/reports/trial_view.hpp"
 #include "lock_file.hpp"
 #include "page.hpp"
 
@@ -13,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPage = "report/index.html";
 constexpr const char* kGeneralTitle = "Harmonic drive hysteresis: what the fits are worth";
 
 /// Two inputs may differ in letters that a file name cannot hold.
@@ -30,18 +33,52 @@ void make_table_ids_unique(std::vector<Section>& sections) {
   }
 }
 
-Document compose(Artefacts artefacts) {
-  const std::string title = parse_lock(artefacts.lock).title;
-  const StudyView view(std::move(artefacts));
-  std::vector<SectionRow> rows(sections().begin(), sections().end());
+/// What the rows of a catalogue of sections draw of a view, in their order.
+template <class Row, class View>
+Document compose(std::string title, std::span<const Row> catalogue, const View& view) {
+  std::vector<Row> rows(catalogue.begin(), catalogue.end());
   std::stable_sort(rows.begin(), rows.end(),
-                   [](const SectionRow& a, const SectionRow& b) { return a.order < b.order; });
-  Document document{title.empty() ? kGeneralTitle : title, {}};
-  for (const SectionRow& row : rows) {
+                   [](const Row& a, const Row& b) { return a.order < b.order; });
+  Document document{std::move(title), {}};
+  for (const Row& row : rows) {
     if (auto section = row.draw(view)) document.sections.push_back(std::move(*section));
   }
   make_table_ids_unique(document.sections);
   return document;
+}
+
+/// A report, and where its page lies in the folder.
+struct Composed {
+  Document document;
+  fs::path page;
+};
+
+Result<Composed> of_diagnosis(const fs::path& folder) {
+  const auto view = read_diagnosis(folder);
+  if (!view) return tl::unexpected(view.error());
+  return Composed{compose("Diagnosis of " + view->dataset, diagnosis_sections(), *view),
+                  "index.html"};
+}
+
+Result<Composed> of_trial(const fs::path& folder) {
+  const auto view = read_trial(folder);
+  if (!view) return tl::unexpected(view.error());
+  const std::string title = view->title.empty() ? "Blind trial " + view->name : view->title;
+  return Composed{compose(title, trial_sections(), *view), kPage};
+}
+
+Result<Composed> of_study(const fs::path& folder) {
+  auto artefacts = read_artefacts(folder);
+  if (!artefacts) return tl::unexpected(artefacts.error());
+  const std::string title = parse_lock(artefacts->lock).title;
+  const StudyView view(std::move(*artefacts));
+  return Composed{compose(title.empty() ? kGeneralTitle : title, sections(), view), kPage};
+}
+
+Result<Composed> of_folder(const fs::path& folder) {
+  if (fs::exists(folder / "diagnosis.json")) return of_diagnosis(folder);
+  if (fs::exists(folder / "trial.json")) return of_trial(folder);
+  return of_study(folder);
 }
 
 Result<void> write_table(const fs::path& folder, const Table& table) {
@@ -64,15 +101,15 @@ Result<void> write_tables(const fs::path& folder, const Document& document) {
 
 }  // namespace
 
-Result<fs::path> write_report(const fs::path& study_folder) {
-  auto artefacts = read_artefacts(study_folder);
-  if (!artefacts) return tl::unexpected(in_context(artefacts.error(), "report"));
-  const Document document = compose(std::move(*artefacts));
-  const fs::path page = study_folder / "report" / "index.html";
+Result<fs::path> write_report(const fs::path& folder) {
+  const auto report = of_folder(folder);
+  if (!report) return tl::unexpected(in_context(report.error(), "report"));
+  const Document& document = report->document;
+  const fs::path page = folder / report->page;
   const auto written =
-      write_tables(study_folder / "tables", document)
+      write_tables(folder / "tables", document)
           .and_then(
-              [&] { return write_file(page.parent_path() / "report.json", report_json(document)); })
+              [&] { return write_file(folder / "report" / "report.json", report_json(document)); })
           .and_then([&] { return write_file(page, page_of(document)); });
   if (!written) return tl::unexpected(in_context(written.error(), "report"));
   return page;

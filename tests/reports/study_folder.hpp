@@ -10,16 +10,16 @@
 
 namespace flexspline::reports {
 
-/// A copy of the fixture that a test may spoil, gone when the test is.
+/// A copy of a fixture that a test may spoil, gone when the test is.
 class StudyFolder {
  public:
-  StudyFolder() {
+  explicit StudyFolder(const std::string& fixture = "fixture") {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string(test->test_suite_name()) + "-" + test->name();
     std::replace(name.begin(), name.end(), '/', '-');
     path_ = std::filesystem::path(testing::TempDir()) / ("flexspline-report-" + name);
     std::filesystem::remove_all(path_);
-    std::filesystem::copy(std::filesystem::path(FLEXSPLINE_SOURCE_DIR) / "tests/reports/fixture",
+    std::filesystem::copy(std::filesystem::path(FLEXSPLINE_SOURCE_DIR) / "tests/reports" / fixture,
                           path_, std::filesystem::copy_options::recursive);
   }
   StudyFolder(const StudyFolder&) = delete;

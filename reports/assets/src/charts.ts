@@ -8,6 +8,7 @@ import {
   GridComponent,
   LegendComponent,
   LegendScrollComponent,
+  MarkAreaComponent,
   MarkLineComponent,
   TooltipComponent,
   VisualMapContinuousComponent,
@@ -20,7 +21,7 @@ import { linesOption } from "./lines";
 
 use([
   CustomChart, HeatmapChart, LineChart, ScatterChart, DataZoomInsideComponent, GridComponent, LegendComponent,
-  LegendScrollComponent, MarkLineComponent, TooltipComponent, VisualMapContinuousComponent, SVGRenderer,
+  LegendScrollComponent, MarkAreaComponent, MarkLineComponent, TooltipComponent, VisualMapContinuousComponent, SVGRenderer,
 ]);
 
 export type Chart = EChartsType;

@@ -10,7 +10,7 @@ export interface Axis {
 export interface Series {
   name: string;
   style: "line" | "points" | "band";
-  role: "measured" | "truth" | "published" | "estimator" | "plain";
+  role: "measured" | "truth" | "published" | "estimator" | "plain" | "highlight";
   rank: number;
   x: (number | null)[];
   y: (number | null)[];
@@ -26,6 +26,7 @@ export interface Panel {
   y: Axis;
   series: Series[];
   marks?: { at: number; label: string }[];
+  spans?: [from: number, to: number][];
   cells?: Cell[];
 }
 
@@ -43,6 +44,7 @@ export interface Figure {
   pickers: string[];
   frames: Frame[];
   scale?: [number, number];
+  cell_unit?: string;
   derived_from?: string;
   y_label?: string;
 }
@@ -59,7 +61,7 @@ function shareX(figure: Figure): void {
 function lessFirst(panel: Panel, label: string): Panel {
   const [first, ...rest] = panel.series;
   const unit = panel.y.label.split(" / ")[1] ?? "";
-  const series = rest.map((one) => ({
+  const series = rest.filter((one) => one.role !== "highlight").map((one) => ({
     ...one,
     y: one.y.map((y, i) => (y === null || first.y[i] === null ? null : first.y[i]! - y)),
   }));

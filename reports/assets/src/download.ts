@@ -25,9 +25,9 @@ function rowsOf(panel: Panel): unknown[][] {
   return [...cells, ...points];
 }
 
-function csvOf(panels: Panel[]): string {
+function csvOf(panels: Panel[], cellUnit: string): string {
   const { x, y } = panels[0];
-  const head = ["panel", "series", `x: ${x.label}`, `y: ${y.label}`, "error / %", "lower", "upper"];
+  const head = ["panel", "series", `x: ${x.label}`, `y: ${y.label}`, cellUnit, "lower", "upper"];
   return [head, ...panels.flatMap(rowsOf)].map((row) => row.map(field).join(",")).join("\n") + "\n";
 }
 
@@ -39,11 +39,11 @@ function button(text: string, act: () => void): HTMLButtonElement {
   return element;
 }
 
-export function addDownloads(id: string, controls: HTMLElement, panels: () => Panel[], pictures: () => SVGElement[]): void {
+export function addDownloads(id: string, cellUnit: string, controls: HTMLElement, panels: () => Panel[], pictures: () => SVGElement[]): void {
   const group = document.createElement("span");
   group.className = "downloads";
   const saveSvg = () =>
     pictures().forEach((svg, i) => save(`${id}-${i + 1}.svg`, "image/svg+xml", new XMLSerializer().serializeToString(svg)));
-  group.append(button("SVG", saveSvg), button("CSV", () => save(`${id}.csv`, "text/csv", csvOf(panels()))));
+  group.append(button("SVG", saveSvg), button("CSV", () => save(`${id}.csv`, "text/csv", csvOf(panels(), cellUnit))));
   controls.append(group);
 }

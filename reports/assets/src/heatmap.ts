@@ -2,7 +2,7 @@
 
 import type { Cell, Figure, Panel } from "./document";
 import { escapeHtml, shown } from "./numbers";
-import { heatColours, inkOn, kFont, theme } from "./theme";
+import { heatColours, inkOn, kFont, kTooltipCss, theme } from "./theme";
 
 type Option = Record<string, any>;
 
@@ -13,30 +13,41 @@ function shareOf(value: number, scale: [number, number]): number {
   return Math.min(1, Math.max(0, (Math.log10(value) - low) / (high - low)));
 }
 
-function cellText(value: number | null): string {
+function cellText(value: number | null, unit: string): string {
   if (value === null) return "–";
-  return value >= 1e5 ? value.toExponential(0).replace("e+", "e") : shown(value, 2);
+  return value >= 1e5 ? value.toExponential(0).replace("e+", "e") : unit.startsWith("%") ? shown(value, 2) : String(value);
 }
 
-function cellOption(cell: Cell, scale: [number, number]): Option {
+function cellOption(cell: Cell, scale: [number, number], unit: string): Option {
   const [column, row, value, note] = cell;
   const share = value === null ? 0 : shareOf(Math.max(value, 1e-12), scale);
   return {
     value: [column, row, share, value],
-    label: { color: value === null ? theme().text : inkOn(share), formatter: cellText(value) + (kNotes[note] ?? "") },
+    label: { color: value === null ? theme().text : inkOn(share), formatter: cellText(value, unit) + (kNotes[note] ?? "") },
     itemStyle: value === null ? { color: "transparent" } : undefined,
     note,
   };
 }
 
-function tooltipText(panel: Panel, item: any): string {
+function tooltipText(panel: Panel, item: any, unit: string): string {
   const [column, row, , value] = item.value;
   const said = { trained: "trained on this recording", outside: "outside its domain of validity" }[item.data.note as string];
   const place = `${panel.y.label}: ${panel.y.categories?.[row]}, ${panel.x.label}: ${panel.x.categories?.[column]}`;
-  return `${escapeHtml(place)}<br><b>${shown(value, 3)} %</b> of peak${said ? `<br>${said}` : ""}`;
+  return `${escapeHtml(place)}<br><b>${unit.startsWith("%") ? shown(value, 3) : value}</b> ${escapeHtml(unit)}${said ? `<br>${said}` : ""}`;
 }
 
-function axisOption(label: string, categories: string[] | undefined, gap: number): Option {
+const kMostUpright = 8;
+
+/** Many columns have their names written upwards, and a width below which the map scrolls. */
+const isWide = (panel: Panel) => (panel.x.categories?.length ?? 0) > kMostUpright;
+
+export function fitHeatmap(place: HTMLElement, panel: Panel): void {
+  if (!isWide(panel)) return;
+  place.style.minWidth = `${220 + 34 * panel.x.categories!.length}px`;
+  place.style.height = `${230 + 30 * (panel.y.categories?.length ?? 0)}px`;
+}
+
+function axisOption(label: string, categories: string[] | undefined, gap: number, rotate = 0): Option {
   const colours = theme();
   return {
     type: "category",
@@ -48,32 +59,34 @@ function axisOption(label: string, categories: string[] | undefined, gap: number
     axisLine: { show: false },
     axisTick: { show: false },
     splitLine: { show: false },
-    axisLabel: { color: colours.text, fontSize: 11, interval: 0, width: window.innerWidth < 600 ? 90 : 160, overflow: "truncate" },
+    axisLabel: { color: colours.text, fontSize: 11, interval: 0, rotate, width: window.innerWidth < 600 && !rotate ? 90 : 160, overflow: "truncate" },
   };
 }
 
 export function heatmapOption(panel: Panel, figure: Figure): Option {
   const colours = theme();
   const scale = figure.scale ?? [0.1, 100];
+  const unit = figure.cell_unit ?? "";
   return {
     animation: false,
     textStyle: { color: colours.text, fontFamily: kFont },
     grid: { left: 8, right: 8, top: 8, bottom: 8, outerBoundsMode: "same", outerBounds: { left: 4, right: 4, top: 4, bottom: 4 } },
     tooltip: {
       confine: true,
+      extraCssText: kTooltipCss,
       backgroundColor: colours.surface,
       borderColor: colours.grid,
       textStyle: { color: colours.text, fontSize: 12 },
-      formatter: (item: any) => tooltipText(panel, item),
+      formatter: (item: any) => tooltipText(panel, item, unit),
     },
     visualMap: { show: false, min: 0, max: 1, dimension: 2, inRange: { color: heatColours } },
-    xAxis: axisOption(panel.x.label, panel.x.categories, 26),
+    xAxis: axisOption(panel.x.label, panel.x.categories, isWide(panel) ? 150 : 26, isWide(panel) ? 60 : 0),
     yAxis: axisOption(panel.y.label, panel.y.categories, 40),
     series: [
       {
         type: "heatmap",
         name: panel.title,
-        data: (panel.cells ?? []).map((cell) => cellOption(cell, scale)),
+        data: (panel.cells ?? []).map((cell) => cellOption(cell, scale, unit)),
         label: { show: true, fontSize: 11 },
         itemStyle: { borderColor: colours.surface, borderWidth: 2 },
         emphasis: { itemStyle: { borderColor: colours.text } },
@@ -83,7 +96,7 @@ export function heatmapOption(panel: Panel, figure: Figure): Option {
 }
 
 /** The scale as a strip with its decades. */
-export function scaleStrip(scale: [number, number]): HTMLElement {
+export function scaleStrip(scale: [number, number], unit: string): HTMLElement {
   const strip = document.createElement("div");
   strip.className = "scale";
   const [low, high] = scale.map(Math.log10);
@@ -94,7 +107,7 @@ export function scaleStrip(scale: [number, number]): HTMLElement {
   ticks.className = "ticks";
   for (let decade = Math.round(low); decade <= Math.round(high); decade++) {
     const label = document.createElement("span");
-    label.textContent = `${Number((10 ** decade).toPrecision(1))} %`;
+    label.textContent = `${Number((10 ** decade).toPrecision(1))}${unit.startsWith("%") ? " %" : ""}`;
     ticks.append(label);
   }
   strip.append(bar, ticks);

@@ -2,7 +2,7 @@
 
 import type { Axis, Panel, Series } from "./document";
 import { escapeHtml, shown, tick } from "./numbers";
-import { colourOf, dashOf, isReference, kFont, symbolOf, theme, widthOf } from "./theme";
+import { colourOf, dashOf, isReference, kFont, kTooltipCss, symbolOf, theme, widthOf } from "./theme";
 
 type Option = Record<string, any>;
 
@@ -55,17 +55,19 @@ function lineSeries(series: Series): Option {
     showSymbol: few,
     symbol: few ? symbolOf(series) : "none",
     symbolSize: 8,
-    lineStyle: { color: colourOf(series), width: widthOf(series), type: dashOf(series), opacity: isReference(series) ? 0.4 : 1 },
+    lineStyle: { color: colourOf(series), width: widthOf(series), type: dashOf(series), opacity: isReference(series) || series.role === "highlight" ? 0.4 : 1 },
     itemStyle: { color: colourOf(series) },
     emphasis: { disabled: true },
     animation: false,
-    z: isReference(series) ? 2 : 3,
+    z: series.role === "highlight" ? 1 : isReference(series) ? 2 : 3,
   };
 }
 
 function seriesOption(series: Series, panel: Panel): Option {
   if (series.style === "band") return bandSeries(series);
-  return series.style === "points" ? pointSeries(series, Boolean(panel.y.categories)) : lineSeries(series);
+  if (series.style !== "points") return lineSeries(series);
+  const several = panel.series.filter((one) => one.style === "points").length > 1;
+  return pointSeries(series, several && Boolean(panel.y.categories));
 }
 
 /** Bands come last, because the legend draws the first series of a name. */
@@ -91,6 +93,12 @@ function markOption(panel: Panel): Option {
   };
 }
 
+/** Stretches of the x axis that are to be looked at. */
+function spanOption(panel: Panel): Option {
+  const data = (panel.spans ?? []).map(([from, to]) => [{ xAxis: from }, { xAxis: to }]);
+  return { silent: true, itemStyle: { color: theme().highlight, opacity: 0.22 }, data };
+}
+
 /** A logarithmic axis of few values, e.g. frequencies, is labelled at those values. */
 function ticksAtData(axis: Axis, values: number[]): Option {
   const distinct = [...new Set(values)];
@@ -102,7 +110,11 @@ function logRange(axis: Axis, values: number[]): Option {
   return { min: Math.min(...values) / 1.25, max: Math.max(...values) * 1.25 };
 }
 
-const categoryWidth = () => (window.innerWidth < 600 ? 96 : 150);
+/** As wide as the longest name, within reason. */
+function categoryWidth(categories: string[]): number {
+  const longest = Math.max(...categories.map((name) => name.length));
+  return Math.min(window.innerWidth < 600 ? 96 : 230, Math.max(96, 6.2 * longest));
+}
 
 function axisOption(axis: Axis, values: number[], other: Option): Option {
   const colours = theme();
@@ -116,7 +128,7 @@ function axisOption(axis: Axis, values: number[], other: Option): Option {
     ...other,
   };
   if (axis.categories) {
-    const label = { color: colours.text, fontSize: 11, width: categoryWidth(), overflow: "truncate", interval: 0 };
+    const label = { color: colours.text, fontSize: 11, width: categoryWidth(axis.categories), overflow: "truncate", interval: 0 };
     return { ...common, type: "category", data: axis.categories, axisLabel: label };
   }
   return {
@@ -176,15 +188,17 @@ export function linesOption(panel: Panel): Option {
   const series = seriesOptions(panel);
   const carrier = series.find((one) => one.type !== "custom");
   if (carrier && panel.marks?.length) carrier.markLine = markOption(panel);
+  if (carrier && panel.spans?.length) carrier.markArea = spanOption(panel);
   const xs = panel.series.flatMap((one) => one.x.filter((x): x is number => x !== null));
   return {
     animation: false,
     textStyle: { color: colours.text, fontFamily: kFont },
-    grid: { left: overCategories ? categoryWidth() + 12 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74, outerBoundsMode: "none" },
+    grid: { left: panel.y.categories ? categoryWidth(panel.y.categories) + 12 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74, outerBoundsMode: "none" },
     legend: legendOption(panel),
     tooltip: {
       trigger: overCategories ? "item" : "axis",
       confine: true,
+      extraCssText: kTooltipCss,
       axisPointer: { type: "cross", label: { show: false }, lineStyle: { color: colours.muted }, crossStyle: { color: colours.muted } },
       backgroundColor: colours.surface,
       borderColor: colours.grid,

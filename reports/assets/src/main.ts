@@ -6,7 +6,7 @@ import { drawChart, linkCharts } from "./charts";
 import type { Figure, Frame, Panel } from "./document";
 import { readFigures } from "./document";
 import { addDownloads } from "./download";
-import { scaleStrip } from "./heatmap";
+import { fitHeatmap, scaleStrip } from "./heatmap";
 import { addPickers } from "./picker";
 import { onThemeChange, setPrinting } from "./theme";
 
@@ -24,8 +24,8 @@ class DrawnFigure {
       this.frame = frame;
       this.draw();
     });
-    addDownloads(figure.id, controls, () => this.frame.panels, () => [...this.panels.querySelectorAll("svg")]);
-    if (figure.kind === "heatmap" && figure.scale) this.panels.before(scaleStrip(figure.scale));
+    addDownloads(figure.id, figure.cell_unit ?? "", controls, () => this.frame.panels, () => [...this.panels.querySelectorAll("svg")]);
+    if (figure.kind === "heatmap" && figure.scale) this.panels.before(scaleStrip(figure.scale, figure.cell_unit ?? ""));
     this.layOut();
     new ResizeObserver(() => this.fit()).observe(this.panels);
   }
@@ -54,6 +54,7 @@ class DrawnFigure {
     place.className = "chart";
     const rows = panel.y.categories?.length ?? 0;
     if (rows > 0) place.style.height = `${110 + rows * (this.figure.kind === "heatmap" ? 38 : 26)}px`;
+    if (this.figure.kind === "heatmap") fitHeatmap(place, panel);
     if (panel.title) box.append(title);
     box.append(place);
     for (const mark of panel.marks ?? []) {

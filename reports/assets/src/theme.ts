@@ -10,13 +10,14 @@ export interface Theme {
   surface: string;
   measured: string;
   truth: string;
+  highlight: string;
 }
 
 const kLight: Theme = {
-  text: "#1c1f23", muted: "#5b626b", grid: "#e3e6ea", surface: "#ffffff", measured: "#22262b", truth: "#6b7280",
+  text: "#1c1f23", muted: "#5b626b", grid: "#e3e6ea", surface: "#ffffff", measured: "#22262b", truth: "#6b7280", highlight: "#E8C400",
 };
 const kDark: Theme = {
-  text: "#e8eaed", muted: "#a2a9b3", grid: "#33383f", surface: "#1b1e23", measured: "#f2f3f5", truth: "#a2a9b3",
+  text: "#e8eaed", muted: "#a2a9b3", grid: "#33383f", surface: "#1b1e23", measured: "#f2f3f5", truth: "#a2a9b3", highlight: "#F0E442",
 };
 
 const kPaletteLight = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#B98A00", "#3B93C4", "#8A6D3B"];
@@ -26,6 +27,9 @@ const kSymbols = ["circle", "diamond", "triangle", "rect", "pin", "roundRect", "
 
 /** Named, because the library measures text with it. */
 export const kFont = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif';
+
+/** A tooltip is never wider than its chart, nor than a phone. */
+export const kTooltipCss = "white-space: normal; max-width: min(100%, 340px)";
 
 const dark = window.matchMedia("(prefers-color-scheme: dark)");
 let printing = false;
@@ -51,15 +55,17 @@ const cycled = <T>(list: T[], rank: number): T => list[rank % list.length];
 export function colourOf(series: Series): string {
   if (series.role === "measured") return theme().measured;
   if (series.role === "truth" || series.role === "published") return theme().truth;
+  if (series.role === "highlight") return theme().highlight;
   return cycled(isDark() ? kPaletteDark : kPaletteLight, series.rank);
 }
 
 export function dashOf(series: Series): string | number[] {
-  if (isReference(series) || series.role === "published") return "solid";
+  if (isReference(series) || ["published", "highlight"].includes(series.role)) return "solid";
   return cycled(kDashes, series.rank + Math.floor(series.rank / kPaletteLight.length));
 }
 
 export function widthOf(series: Series): number {
+  if (series.role === "highlight") return 11;
   return isReference(series) ? 5 : 1.8;
 }
 

@@ -1,4 +1,4 @@
-// Opens the report of the fixture in headless Chromium, at the width of a desk and of a phone, and
+// Opens the reports of the fixtures in headless Chromium, at the width of a desk and of a phone, and
 // checks what a person would notice. Pictures of the pages are left in the working folder.
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
@@ -7,7 +7,12 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const kSkipped = 77;
-const [drawReport, fixture, packages, work] = process.argv.slice(2);
+const [drawReport, fixtures, packages, work] = process.argv.slice(2);
+const kReports = [
+  { name: "study", fixture: "fixture", page: "report/index.html", figures: 8 },
+  { name: "diagnosis", fixture: "diagnosis_fixture", page: "index.html", figures: 4 },
+  { name: "trial", fixture: "trial_fixture", page: "report/index.html", figures: 3 },
+];
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 if (!chromium) {
   console.log("skipped: no chromium on this machine (Debian: apt-get install chromium)");
@@ -73,8 +78,8 @@ async function checkLayout(page, at) {
   check(await page.evaluate(() => window.hacked === undefined && !document.querySelector("main img")), `${at}: a hostile name ran`);
 }
 
-async function visit(browser, url, width, scheme) {
-  const at = `${width} px, ${scheme}`;
+async function visit(browser, report, url, width, scheme) {
+  const at = `${report.name}, ${width} px, ${scheme}`;
   const page = await browser.newPage({ viewport: { width, height: 900 }, colorScheme: scheme });
   page.on("console", (message) => check(!["error", "warning"].includes(message.type()), `${at}: console: ${message.text()}`));
   page.on("pageerror", (error) => check(false, `${at}: ${error}`));
@@ -84,7 +89,7 @@ async function visit(browser, url, width, scheme) {
   const interactive = await page.evaluate(() => performance.getEntriesByType("navigation")[0].domInteractive);
   console.log(`${at}: interactive after ${Math.round(interactive)} ms`);
   const figures = await page.locator("figure[data-figure]").all();
-  check(figures.length >= 8, `${at}: only ${figures.length} figures`);
+  check(figures.length >= report.figures, `${at}: only ${figures.length} figures`);
   for (const figure of figures) {
     const id = await checkFigure(page, figure, at);
     await checkHover(page, figure, id, at);
@@ -96,10 +101,10 @@ async function visit(browser, url, width, scheme) {
   check(misfit === 0, `${at}: ${misfit} charts are not as wide as their place`);
   await page.evaluate(() => scrollTo(0, 0));
   await page.mouse.move(1, 1);
-  await page.screenshot({ path: join(work, `report-${width}-${scheme}.png`), fullPage: true });
+  await page.screenshot({ path: join(work, `${report.name}-${width}-${scheme}.png`), fullPage: true });
   if (width > 1000 && scheme === "light") {
     const pdf = await page.pdf({ format: "A4" });
-    writeFileSync(join(work, "report.pdf"), pdf);
+    writeFileSync(join(work, `${report.name}.pdf`), pdf);
     check(pdf.length > 20000, `${at}: the print is empty`);
   }
   await page.close();
@@ -107,14 +112,17 @@ async function visit(browser, url, width, scheme) {
 
 rmSync(work, { recursive: true, force: true });
 mkdirSync(work, { recursive: true });
-cpSync(fixture, join(work, "study"), { recursive: true });
-execFileSync(drawReport, [join(work, "study")]);
-const url = pathToFileURL(join(work, "study", "report", "index.html")).href;
 const browser = await driver.launch({ executablePath: chromium, args: ["--no-sandbox"] });
-await visit(browser, url, 1440, "light");
-await visit(browser, url, 1440, "dark");
-await visit(browser, url, 390, "light");
+for (const report of kReports) {
+  const folder = join(work, report.name);
+  cpSync(join(fixtures, report.fixture), folder, { recursive: true });
+  execFileSync(drawReport, [folder]);
+  const url = pathToFileURL(join(folder, report.page)).href;
+  await visit(browser, report, url, 1440, "light");
+  await visit(browser, report, url, 1440, "dark");
+  await visit(browser, report, url, 390, "light");
+}
 await browser.close();
 for (const failure of failures) console.log(failure);
-console.log(failures.length === 0 ? "the report holds" : `${failures.length} failures`);
+console.log(failures.length === 0 ? "the reports hold" : `${failures.length} failures`);
 process.exit(failures.length === 0 ? 0 : 1);

@@ -9,8 +9,8 @@
 namespace flexspline::reports {
 
 /// Who a series belongs to; the page gives each role one colour and one line style throughout.
-/// measured | truth | published | estimator | plain, with the rank of the estimator in the study or
-/// of a plain series in its panel. The name is a literal.
+/// measured | truth | published | estimator | plain | highlight, with the rank of the estimator in
+/// the study or of a plain series in its panel. The name is a literal.
 struct Role {
   std::string_view name = "estimator";
   int rank = 0;
@@ -37,6 +37,12 @@ struct Mark {
   std::string label;
 };
 
+/// A stretch of the x axis that is to be looked at.
+struct Span {
+  double from = 0.0;
+  double to = 0.0;
+};
+
 /// A number in a heat map.
 struct HeatCell {
   int column = 0;
@@ -51,6 +57,7 @@ struct Panel {
   Axis x, y;
   std::vector<Series> series;
   std::vector<Mark> marks;
+  std::vector<Span> spans;
   std::vector<HeatCell> cells;
 };
 
@@ -70,6 +77,7 @@ struct Figure {
   std::string derived_from;  ///< id of a figure whose frames this one shows, less its first series
   std::string y_label;       ///< of a derived figure
   std::optional<std::pair<double, double>> scale;  ///< of the colours of a heat map, logarithmic
+  std::string cell_unit = "% of peak";             ///< of the numbers of a heat map
 };
 
 }  // namespace flexspline::reports

@@ -6,11 +6,13 @@
 
 namespace flexspline::reports {
 
-/// Draws the report of a study, fit or comparison from the artefacts in its folder alone
-/// (docs/artefacts.md): report/index.html, report/report.json and tables/*.csv|.md|.tex.
+/// Draws the report of a folder from the artefacts in it alone (docs/artefacts.md): of a diagnosis
+/// (diagnosis.json: index.html), else of a trial (trial.json: report/index.html), else of a study,
+/// fit or comparison (report/index.html); with report/report.json and tables/*.csv|.md|.tex.
 /// The same artefacts give the same bytes. What is absent is left out; artefacts that cannot be
 /// read are named in the report. Gives the path of the page.
-/// Errors: input_missing where the folder holds no artefact at all; cannot_write.
-Result<std::filesystem::path> write_report(const std::filesystem::path& study_folder);
+/// Errors: input_missing where the folder holds no artefact at all; bad_data for a diagnosis or
+/// trial that cannot be read; cannot_write.
+Result<std::filesystem::path> write_report(const std::filesystem::path& folder);
 
 }  // namespace flexspline::reports

@@ -22,12 +22,17 @@ struct Verdict {
   std::string text;
 };
 
+/// What the blocks behind it are about.
+struct Heading {
+  std::string text;
+};
+
 /// Something to copy, as it stands.
 struct Listing {
   std::string text;
 };
 
-using Content = std::variant<Verdict, Paragraph, Figure, Table, Listing>;
+using Content = std::variant<Verdict, Paragraph, Heading, Figure, Table, Listing>;
 
 /// A piece of a section; folded pieces wait behind their summary, neighbours of one summary
 /// together.

@@ -1,0 +1,41 @@
+#include <cmath>
+
+#include "flexspline/reports/diagnosis_view.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+constexpr const char* kCommands =
+    "# compute it again\n"
+    "flexspline diagnose DATASET --out AGAIN\n"
+    "# draw this page again from diagnosis.json alone\n"
+    "flexspline report DIR";
+
+constexpr const char* kSimulate =
+    "\n# simulate with what was found\n"
+    "flexspline simulate DIR/model.toml --like DATASET --out SIMULATED";
+
+std::optional<Section> draw(const DiagnosisView& view) {
+  Section section{"provenance-section", "Where this comes from, and how to get it again", {}};
+  for (const std::string& note : view.notes) section.add(Paragraph{note});
+  section.add(Listing{view.causes.empty() ? kCommands : std::string(kCommands) + kSimulate});
+  Table table{"provenance",
+              "The checksum is that of what the recordings say, not of their names.",
+              {{"what", "", 3}, {"value", "", 3}},
+              {}};
+  table.rows.push_back({"data set", view.dataset});
+  table.rows.push_back({"SHA-256 of its content", view.sha256});
+  table.rows.push_back({"baseline", view.baseline});
+  if (std::isfinite(view.seconds)) {
+    table.rows.push_back({"computed in", digits(view.seconds, 2) + " s"});
+  }
+  section.add(std::move(table));
+  return section;
+}
+
+}  // namespace
+
+DiagnosisSectionRow describe_diagnosis_provenance() { return {70, draw}; }
+
+}  // namespace flexspline::reports

@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "figures/diagnosis_figures.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+/// Place of a name among the categories, which gain it where they have it not.
+double row_of(std::vector<std::string>& categories, const std::string& name) {
+  const auto found = std::find(categories.begin(), categories.end(), name);
+  const auto row = static_cast<double>(found - categories.begin());
+  if (found == categories.end()) categories.push_back(name);
+  return row;
+}
+
+}  // namespace
+
+Figure candidates_figure(const DiagnosisView& view) {
+  Figure figure;
+  figure.id = "candidates";
+  figure.kind = "scatter";
+  figure.title = "What each candidate would explain";
+  figure.caption =
+      "Share of the misfit beyond the noise that a candidate removes, by round of the search. The "
+      "best one of a round is taken up only if it also holds on recordings that it has not seen; "
+      "those close to it are what it could be confused with.";
+  figure.alt = "Share of misfit removed by every candidate, a symbol a round.";
+  Panel panel;
+  panel.x.label = "misfit removed / %";
+  panel.y.label = "candidate";
+  std::map<int, Series> rounds;
+  for (const ShownCandidate& one : view.tried) {
+    if (!std::isfinite(one.misfit_removed)) continue;
+    Series& series = rounds[one.round];
+    series.x.push_back(100.0 * one.misfit_removed);
+    series.y.push_back(row_of(panel.y.categories, words(one.effect)));
+  }
+  for (auto& [round, series] : rounds) {
+    series.name = "round " + std::to_string(round);
+    series.style = "points";
+    series.role = {"estimator", std::max(0, round - 1)};
+    panel.series.push_back(std::move(series));
+  }
+  if (!panel.series.empty()) figure.frames.push_back({{}, {std::move(panel)}});
+  return figure;
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cmath>
+
+#include "figures/diagnosis_figures.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+constexpr std::size_t kNumbersInPicture = 150'000;
+constexpr std::size_t kNumbersOfAPoint = 8;  ///< two panels, their axes and three lines each
+
+std::vector<Span> spans_of(const DiagnosisView& view, const ShownSeries& series) {
+  std::vector<Span> spans;
+  for (const ShownMismatch& one : view.mismatch) {
+    const bool here = one.recording == series.recording &&
+                      (one.equation.empty() || one.equation == series.equation);
+    if (here && std::isfinite(one.from_s) && std::isfinite(one.to_s)) {
+      spans.push_back({one.from_s, one.to_s});
+    }
+  }
+  return spans;
+}
+
+/// What was measured inside the spans, nothing elsewhere.
+std::vector<double> inside(const ShownSeries& series, const std::vector<Span>& spans) {
+  std::vector<double> values(series.measured.size(), kAbsent);
+  for (std::size_t i = 0; i < std::min(values.size(), series.time.size()); ++i) {
+    const double t = series.time[i];
+    const bool covered = std::any_of(spans.begin(), spans.end(), [t](const Span& span) {
+      return span.from <= t && t <= span.to;
+    });
+    if (covered) values[i] = series.measured[i];
+  }
+  return values;
+}
+
+/// Without anything left out, both models are the same line.
+bool has_after(const ShownSeries& series) {
+  return !series.after.empty() && series.after != series.before;
+}
+
+Panel panel_of(const ShownSeries& series, const std::vector<double>& x, const std::string& title,
+               const std::string& x_label, const std::string& effort) {
+  Panel panel;
+  panel.title = title;
+  panel.x.label = x_label;
+  panel.y.label = "effort / " + effort;
+  panel.series.push_back({"measured", "line", {"measured", 0}, x, series.measured, {}, {}});
+  panel.series.push_back({"baseline", "line", {"estimator", 0}, x, series.before, {}, {}});
+  if (has_after(series)) {
+    panel.series.push_back(
+        {"with what was left out", "line", {"estimator", 1}, x, series.after, {}, {}});
+  }
+  return panel;
+}
+
+ShownSeries lightened(ShownSeries series, std::size_t points) {
+  for (auto* values : {&series.time, &series.motion, &series.rate, &series.measured, &series.before,
+                       &series.after}) {
+    *values = thinned(*values, points);
+  }
+  return series;
+}
+
+std::vector<Panel> panels_of(const DiagnosisView& view, const ShownSeries& series) {
+  const std::vector<Span> spans = spans_of(view, series);
+  std::vector<Panel> panels;
+  panels.push_back(panel_of(series, series.motion, "over the motion",
+                            "motion / " + view.units.motion, view.units.effort));
+  panels.push_back(panel_of(series, series.time, "along time", "time / s", view.units.effort));
+  if (spans.empty()) return panels;
+  panels.back().spans = spans;
+  panels.front().series.push_back(
+      {"where it differs", "line", {"highlight", 0}, series.motion, inside(series, spans), {}, {}});
+  return panels;
+}
+
+/// As they stand, the one with the largest mismatch first.
+std::vector<const ShownSeries*> worst_first(const DiagnosisView& view) {
+  std::vector<const ShownSeries*> ordered;
+  for (const ShownSeries& one : view.series) ordered.push_back(&one);
+  if (view.mismatch.empty()) return ordered;
+  const ShownMismatch& worst = view.mismatch.front();
+  std::stable_partition(ordered.begin(), ordered.end(), [&](const ShownSeries* one) {
+    return one->recording == worst.recording &&
+           (worst.equation.empty() || one->equation == worst.equation);
+  });
+  return ordered;
+}
+
+std::vector<std::string> choice_of(const DiagnosisView& view, const ShownSeries& series) {
+  std::vector<std::string> choice{series.recording + (series.trained ? "" : " (held out)")};
+  if (view.has_equations()) choice.push_back(series.equation);
+  return choice;
+}
+
+std::vector<std::string> pickers_of(const DiagnosisView& view) {
+  if (view.has_equations()) return {"recording", "equation"};
+  return {"recording"};
+}
+
+std::size_t points_of(const DiagnosisView& view) {
+  const std::size_t lines = std::max<std::size_t>(1, view.series.size());
+  return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 80, 1200);
+}
+
+}  // namespace
+
+Figure mismatch_figure(const DiagnosisView& view) {
+  Figure figure;
+  figure.id = "mismatch";
+  figure.title = "Measured, and modelled without and with what was left out";
+  figure.caption =
+      view.mismatch.empty()
+          ? "The wide line is measured, the thin one the baseline: it stays within the noise. Pick "
+            "another recording to see that it does so everywhere. Ctrl and the wheel zoom, or two "
+            "fingers; a click in the legend hides a line."
+          : "The wide line is measured; yellow marks where the baseline leaves it, on the loop and "
+            "along time. Look whether the dashed line, with what was left out, stays on the "
+            "measured one there. Ctrl and the wheel zoom, or two fingers; a click in the legend "
+            "hides a line.";
+  figure.alt = "Effort over motion and over time: measured, baseline, and model with the causes.";
+  figure.pickers = pickers_of(view);
+  const std::size_t points = points_of(view);
+  for (const ShownSeries* one : worst_first(view)) {
+    if (one->measured.empty()) continue;
+    figure.frames.push_back({choice_of(view, *one), panels_of(view, lightened(*one, points))});
+  }
+  return figure;
+}
+
+Figure remainder_figure() {
+  Figure figure;
+  figure.id = "remainder";
+  figure.title = "Its signature: measured less modelled";
+  figure.caption =
+      "Noise has no shape. Look for one in the solid line, over the motion or at certain times, "
+      "and "
+      "whether the dashed line has lost it.";
+  figure.alt = "Measured less modelled effort over motion and over time, before and after.";
+  figure.derived_from = "mismatch";
+  figure.y_label = "measured less modelled";
+  return figure;
+}
+
+Figure over_velocity_figure(const DiagnosisView& view) {
+  Figure figure;
+  figure.id = "over-velocity";
+  figure.title = "The remainder over the velocity";
+  figure.caption =
+      "The velocity is what orders this mismatch. Look how the circles bend away from zero as "
+      "speed grows or falls, and whether the diamonds do not.";
+  figure.alt = "Measured less modelled effort over velocity, before and after.";
+  figure.pickers = pickers_of(view);
+  if (view.mismatch.empty() || view.mismatch.front().coordinate != "velocity") return figure;
+  const auto ordered = worst_first(view);
+  if (ordered.empty() || ordered.front()->rate.empty()) return figure;
+  const ShownSeries series = lightened(*ordered.front(), 400);
+  Panel panel = panel_of(series, series.rate, series.recording, "velocity / " + view.units.rate,
+                         view.units.effort);
+  panel.y.label = "measured less modelled / " + view.units.effort;
+  panel.series.erase(panel.series.begin());
+  for (Series& line : panel.series) {
+    line.style = "points";
+    for (std::size_t i = 0; i < std::min(line.y.size(), series.measured.size()); ++i) {
+      line.y[i] = series.measured[i] - line.y[i];
+    }
+  }
+  figure.frames.push_back({choice_of(view, series), {std::move(panel)}});
+  return figure;
+}
+
+}  // namespace flexspline::reports

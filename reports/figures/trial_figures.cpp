@@ -1,0 +1,157 @@
+#include "figures/trial_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+struct Rate {
+  const char* name;
+  const char* title;
+};
+
+constexpr Rate kRates[] = {{"null_ok", "nothing hidden, called adequate"},
+                           {"single_top", "one effect, named first"},
+                           {"single_exact", "one effect, named exactly"},
+                           {"pair_all", "two effects, both named"},
+                           {"pair_one", "two effects, at least one named"},
+                           {"unknown_ok", "outside the catalogue, not named"},
+                           {"coord_ok", "right coordinate among three"},
+                           {"false_name", "cases with a false name"}};
+
+/// Places of what is no effect: rows and columns that belong together stand at the same end.
+int rank_of(const std::string& label) {
+  if (label == "nothing" || label == "adequate") return -1;
+  if (label == "two effects" || label == "one of the two") return 1;
+  if (label.starts_with("unknown:") || label == "no name") return 2;
+  return label == "failed" ? 3 : 0;
+}
+
+std::vector<std::string> labels_of(const std::set<std::string>& names) {
+  std::vector<std::string> labels(names.begin(), names.end());
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const auto& a, const auto& b) { return rank_of(a) < rank_of(b); });
+  return labels;
+}
+
+int index_in(const std::vector<std::string>& labels, const std::string& name) {
+  return static_cast<int>(std::find(labels.begin(), labels.end(), name) - labels.begin());
+}
+
+std::vector<std::string> in_words(std::vector<std::string> labels) {
+  for (std::string& label : labels) label = words(label);
+  return labels;
+}
+
+}  // namespace
+
+std::string rate_title(const std::string& name) {
+  for (const Rate& rate : kRates) {
+    if (name == rate.name) return rate.title;
+  }
+  return words(name);
+}
+
+std::vector<std::pair<std::string, ShownRate>> told_rates(const ShownScores& scores) {
+  std::vector<std::pair<std::string, ShownRate>> told;
+  for (const Rate& rate : kRates) {
+    const ShownRate found = scores.rate(rate.name);
+    if (found.of > 0.0) told.emplace_back(rate.name, found);
+  }
+  return told;
+}
+
+Figure rates_figure(const TrialView& view) {
+  Figure figure;
+  figure.id = "rates";
+  figure.kind = "scatter";
+  figure.title = "How often it was right";
+  figure.caption =
+      "Symbols are shares of cases, lines their 95 % intervals (Clopper and Pearson). The last one "
+      "is to be small, the others near 100 %. A wide line means few cases, not a bad diagnosis.";
+  figure.alt = "Rates of the trial with their 95 % intervals.";
+  Panel panel;
+  panel.x.label = "cases / %";
+  panel.x.range = {0.0, 100.0};
+  panel.y.label = "question";
+  Series intervals{"95 % interval", "line", {"plain", 0}, {}, {}, {}, {}};
+  Series rates{"share of cases", "points", {"plain", 0}, {}, {}, {}, {}};
+  for (const auto& [name, rate] : told_rates(view.scores)) {
+    const auto row = static_cast<double>(panel.y.categories.size());
+    panel.y.categories.push_back(rate_title(name));
+    rates.x.push_back(100.0 * rate.rate);
+    rates.y.push_back(row);
+    intervals.x.insert(intervals.x.end(), {100.0 * rate.lower, 100.0 * rate.upper, kAbsent});
+    intervals.y.insert(intervals.y.end(), {row, row, kAbsent});
+  }
+  if (rates.x.empty()) return figure;
+  panel.series = {std::move(rates), std::move(intervals)};
+  figure.frames.push_back({{}, {std::move(panel)}});
+  return figure;
+}
+
+Figure confusion_figure(const TrialView& view) {
+  Figure figure;
+  figure.id = "confusion";
+  figure.kind = "heatmap";
+  figure.title = "What was hidden, and what was named first";
+  figure.caption =
+      "Cases in a row hid the same thing; columns are the first name given. A diagnosis that is "
+      "right has its cases on the matching column; what stands beside it tells what is taken for "
+      "what.";
+  figure.alt = "Confusion matrix: hidden effect by row, first name by column, number of cases.";
+  figure.cell_unit = "cases";
+  std::set<std::string> truths, names;
+  double most = 1.0;
+  for (const ShownConfusion& one : view.confusion) {
+    truths.insert(one.truth);
+    names.insert(one.named);
+    most = std::max(most, one.count);
+  }
+  std::vector<std::string> rows = labels_of(truths);
+  std::reverse(rows.begin(), rows.end());  // the first one is drawn at the bottom
+  const std::vector<std::string> columns = labels_of(names);
+  Panel panel;
+  panel.x = {"named first", false, in_words(columns), {}};
+  panel.y = {"hidden", false, in_words(rows), {}};
+  for (const ShownConfusion& one : view.confusion) {
+    panel.cells.push_back({index_in(columns, one.named), index_in(rows, one.truth), one.count, ""});
+  }
+  figure.scale = {1.0, std::pow(10.0, std::max(1.0, std::ceil(std::log10(most))))};
+  if (!panel.cells.empty()) figure.frames.push_back({{}, {std::move(panel)}});
+  return figure;
+}
+
+Figure detection_figure(const TrialView& view) {
+  Figure figure;
+  figure.id = "detection";
+  figure.title = "Single effects by their size";
+  figure.caption =
+      "How large an effect has to be before it is seen, and before it is named. Where the lines "
+      "part, something is noticed that cannot yet be told.";
+  figure.alt = "Share of single effects detected, named first and named exactly, over their size.";
+  Panel panel;
+  panel.x.label = "size of the effect / % of peak torque";
+  panel.y.label = "cases / %";
+  panel.y.range = {0.0, 105.0};
+  panel.series = {{"detected", "line", {"plain", 0}, {}, {}, {}, {}},
+                  {"named first", "line", {"plain", 1}, {}, {}, {}, {}},
+                  {"named exactly", "line", {"plain", 2}, {}, {}, {}, {}}};
+  for (const ShownSizeBin& bin : view.by_size) {
+    if (!(bin.cases > 0.0)) continue;
+    const double middle = std::isfinite(bin.to) ? 0.5 * (bin.from + bin.to) : bin.from;
+    const double counts[] = {bin.detected, bin.first_right, bin.exact};
+    for (std::size_t i = 0; i < panel.series.size(); ++i) {
+      panel.series[i].x.push_back(100.0 * middle);
+      panel.series[i].y.push_back(100.0 * counts[i] / bin.cases);
+    }
+  }
+  if (!panel.series.front().x.empty()) figure.frames.push_back({{}, {std::move(panel)}});
+  return figure;
+}
+
+}  // namespace flexspline::reports

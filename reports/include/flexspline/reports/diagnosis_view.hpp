@@ -1,0 +1,110 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "flexspline/reports/artefacts.hpp"
+#include "flexspline/reports/section.hpp"
+
+namespace flexspline::reports {
+
+struct ShownMismatch {
+  std::string recording, coordinate, equation, says;
+  double from_s = kAbsent;
+  double to_s = kAbsent;
+  double share_of_excess = kAbsent;
+};
+
+struct ShownCause {
+  std::string effect, equation;
+  double probability = kAbsent;
+  double size_fraction = kAbsent;
+  std::vector<Parameter> parameters;
+  std::vector<std::string> alternatives;
+  double p_value = kAbsent;
+  double holdout_ratio = kAbsent;
+  double delta_bic = kAbsent;
+  double ablation_ratio = kAbsent;
+  double placebo_ratio = kAbsent;
+};
+
+struct ShownConfusable {
+  std::string effect, with, why;
+  double similarity = kAbsent;
+};
+
+struct ShownCandidate {
+  std::string effect, outcome;
+  int round = 0;
+  double misfit_removed = kAbsent;
+  double delta_bic = kAbsent;
+  double holdout_ratio = kAbsent;
+};
+
+struct ShownMove {
+  std::string name, unit;
+  double before = kAbsent;
+  double after = kAbsent;
+  double std = kAbsent;
+};
+
+/// A recording along one equation: measured, and modelled without and with what was left out.
+struct ShownSeries {
+  std::string recording, equation;
+  bool trained = false;
+  std::vector<double> time, motion, rate, measured, before, after;
+};
+
+struct ShownExperiment {
+  std::vector<std::string> separates;
+  std::string excitation, says;
+  double amplitude = kAbsent;  ///< in units.motion
+  double frequency_hz = kAbsent;
+  double separation_sigma = kAbsent;
+};
+
+/// flexspline-diagnosis/1. Errors (rmse, noise) are in rmse_unit, series in units.
+struct DiagnosisView {
+  std::string dataset, sha256, baseline, verdict, says;
+  ShownUnits units;
+  std::string rmse_unit = "Nm";
+  double rmse_train = kAbsent;
+  double rmse_holdout = kAbsent;
+  double noise = kAbsent;
+  double before = kAbsent;  ///< on hold-out
+  double after = kAbsent;
+  double ratio = kAbsent;
+  double ratio_lower = kAbsent;
+  double ratio_upper = kAbsent;
+  double noise_floor = kAbsent;
+  std::vector<ShownMismatch> mismatch;
+  std::vector<ShownCause> causes;
+  std::vector<ShownConfusable> confusable;
+  std::vector<ShownCandidate> tried;
+  std::vector<ShownMove> moved;
+  std::optional<ShownExperiment> next;
+  std::vector<ShownSeries> series;
+  std::vector<std::string> notes;
+  double seconds = kAbsent;
+
+  bool adequate() const { return verdict == "adequate"; }
+  /// Whether more than one equation of the drive was looked at.
+  bool has_equations() const;
+};
+
+/// Reads DIR/diagnosis.json. Errors: input_missing; bad_data, naming the file, when it is not a
+/// diagnosis or its checksum does not hold.
+Result<DiagnosisView> read_diagnosis(const std::filesystem::path& folder);
+
+/// A row of the catalogue of a diagnosis' sections.
+struct DiagnosisSectionRow {
+  int order = 0;
+  std::optional<Section> (*draw)(const DiagnosisView& view) = nullptr;
+};
+
+/// Every section of a diagnosis, one file each in reports/diagnosis.
+std::span<const DiagnosisSectionRow> diagnosis_sections();
+
+}  // namespace flexspline::reports

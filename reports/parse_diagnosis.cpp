@@ -1,0 +1,153 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "json_fields.hpp"
+#include "parse_artefacts.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+using nlohmann::json;
+
+/// An element of a list, absent where the list is shorter.
+double element(const std::vector<double>& list, std::size_t at) {
+  return at < list.size() ? list[at] : kAbsent;
+}
+
+ShownMismatch parse_mismatch(const json& from) {
+  const std::vector<double> interval = numbers_in(from, "interval_s");
+  return {text_in(from, "recording"),
+          text_in(from, "coordinate"),
+          text_in(from, "equation"),
+          text_in(from, "says"),
+          element(interval, 0),
+          element(interval, 1),
+          number_in(from, "share_of_excess")};
+}
+
+/// The artefact has standard deviations; their normal interval is shown.
+Parameter parse_parameter(const json& from) {
+  constexpr double kNormal95 = 1.959964;
+  Parameter parameter;
+  parameter.name = text_in(from, "name");
+  parameter.unit = text_in(from, "unit");
+  parameter.value = number_in(from, "value");
+  parameter.std = number_in(from, "std");
+  parameter.lower = parameter.value - kNormal95 * parameter.std;
+  parameter.upper = parameter.value + kNormal95 * parameter.std;
+  return parameter;
+}
+
+ShownCause parse_cause(const json& from) {
+  ShownCause cause;
+  cause.effect = text_in(from, "effect");
+  cause.equation = text_in(from, "equation");
+  cause.probability = number_in(from, "probability");
+  cause.size_fraction = number_in(from, "size_fraction");
+  cause.alternatives = texts_in(from, "alternatives");
+  for (const json& one : member(from, "parameters")) {
+    cause.parameters.push_back(parse_parameter(one));
+  }
+  const json& evidence = member(from, "evidence");
+  cause.p_value = number_in(evidence, "score_p_value");
+  cause.holdout_ratio = number_in(evidence, "holdout_rmse_ratio");
+  cause.delta_bic = number_in(evidence, "delta_bic");
+  cause.ablation_ratio = number_in(evidence, "ablation_ratio");
+  cause.placebo_ratio = number_in(evidence, "placebo_ratio");
+  return cause;
+}
+
+ShownCandidate parse_candidate(const json& from) {
+  const double round = number_in(from, "round");
+  return {text_in(from, "effect"),
+          text_in(from, "outcome"),
+          std::isfinite(round) ? static_cast<int>(round) : 0,
+          number_in(from, "misfit_removed"),
+          number_in(from, "delta_bic"),
+          number_in(from, "holdout_rmse_ratio")};
+}
+
+ShownMove parse_move(const json& from) {
+  return {text_in(from, "name"), text_in(from, "unit"), number_in(from, "before"),
+          number_in(from, "after"), number_in(from, "std")};
+}
+
+ShownSeries parse_series(const json& from) {
+  return {
+      text_in(from, "recording"),   text_in(from, "equation"),  text_in(from, "role") == "train",
+      numbers_in(from, "time"),     numbers_in(from, "motion"), numbers_in(from, "rate"),
+      numbers_in(from, "measured"), numbers_in(from, "before"), numbers_in(from, "after")};
+}
+
+std::optional<ShownExperiment> parse_experiment(const json& from) {
+  if (from.empty()) return std::nullopt;
+  return ShownExperiment{texts_in(from, "separates"),     text_in(from, "excitation"),
+                         text_in(from, "says"),           number_in(from, "amplitude"),
+                         number_in(from, "frequency_hz"), number_in(from, "separation_sigma")};
+}
+
+void parse_units(const json& from, DiagnosisView& into) {
+  const auto take = [&](const char* key, std::string& unit) {
+    if (const std::string text = text_in(from, key); !text.empty()) unit = text;
+  };
+  take("motion", into.units.motion);
+  take("rate", into.units.rate);
+  take("effort", into.units.effort);
+  take("rmse", into.rmse_unit);
+}
+
+void parse_numbers(const json& artefact, DiagnosisView& into) {
+  const json& baseline = member(artefact, "baseline");
+  into.baseline = text_in(baseline, "model");
+  into.rmse_train = number_in(member(baseline, "rmse_nm"), "train");
+  into.rmse_holdout = number_in(member(baseline, "rmse_nm"), "holdout");
+  into.noise = number_in(baseline, "noise_std_nm");
+  const json& holdout = member(artefact, "holdout");
+  into.before = number_in(holdout, "rmse_before_nm");
+  into.after = number_in(holdout, "rmse_after_nm");
+  into.ratio = number_in(holdout, "ratio");
+  const std::vector<double> interval = numbers_in(holdout, "ci95");
+  into.ratio_lower = element(interval, 0);
+  into.ratio_upper = element(interval, 1);
+  into.noise_floor = number_in(holdout, "noise_floor_nm");
+  into.seconds = number_in(artefact, "seconds");
+}
+
+template <class Row, class Parse>
+void parse_list(const json& artefact, const char* key, Parse parse, std::vector<Row>& into) {
+  for (const json& one : member(artefact, key)) into.push_back(parse(one));
+}
+
+}  // namespace
+
+bool DiagnosisView::has_equations() const {
+  for (const ShownSeries& one : series) {
+    if (one.equation != series.front().equation) return true;
+  }
+  return false;
+}
+
+DiagnosisView parse_diagnosis(const json& artefact) {
+  DiagnosisView view;
+  view.dataset = text_in(member(artefact, "dataset"), "name");
+  view.sha256 = text_in(member(artefact, "dataset"), "sha256");
+  view.verdict = text_in(artefact, "verdict");
+  view.says = text_in(artefact, "says");
+  parse_numbers(artefact, view);
+  parse_units(member(artefact, "units"), view);
+  parse_list(artefact, "mismatch", parse_mismatch, view.mismatch);
+  parse_list(artefact, "causes", parse_cause, view.causes);
+  for (const json& one : member(artefact, "confusable")) {
+    view.confusable.push_back({text_in(one, "effect"), text_in(one, "with"), text_in(one, "why"),
+                               number_in(one, "similarity")});
+  }
+  parse_list(artefact, "tried", parse_candidate, view.tried);
+  parse_list(artefact, "moved", parse_move, view.moved);
+  view.next = parse_experiment(member(artefact, "next_experiment"));
+  parse_list(artefact, "series", parse_series, view.series);
+  view.notes = texts_in(artefact, "notes");
+  return view;
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,55 @@
+#include "read_checked.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "checksum.hpp"
+#include "flexspline/core/write_file.hpp"
+#include "json_fields.hpp"
+#include "parse_artefacts.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+/// The one artefact that a page is drawn from.
+template <class View>
+Result<View> read_view(const std::filesystem::path& path, std::string_view schema,
+                       View (*parse)(const nlohmann::json&)) {
+  const auto artefact = read_checked(path, schema);
+  if (!artefact) return tl::unexpected(in_context(artefact.error(), path.string()));
+  try {
+    return parse(*artefact);
+  } catch (const nlohmann::json::exception& error) {
+    return failure(ErrorCode::bad_data, path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+using nlohmann::json;
+
+Result<json> read_checked(const std::filesystem::path& path, std::string_view schema) {
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  try {
+    json artefact = json::parse(*text);
+    const std::string found = text_in(artefact, "schema");
+    if (found != schema) {
+      return failure(ErrorCode::bad_data,
+                     "schema is \"" + found + "\", not \"" + std::string(schema) + "\"");
+    }
+    if (checksum_holds(*text)) return artefact;
+    return failure(ErrorCode::bad_data, "its checksum does not hold");
+  } catch (const json::exception& error) {
+    return failure(ErrorCode::bad_data, error.what());
+  }
+}
+
+Result<DiagnosisView> read_diagnosis(const std::filesystem::path& folder) {
+  return read_view(folder / "diagnosis.json", "flexspline-diagnosis/1", parse_diagnosis);
+}
+
+Result<TrialView> read_trial(const std::filesystem::path& folder) {
+  return read_view(folder / "trial.json", "flexspline-trial-result/1", parse_trial);
+}
+
+}  // namespace flexspline::reports

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "flexspline/core/error.hpp"
+
+namespace flexspline::reports {
+
+/// The JSON of an artefact. Errors, without the file's name: input_missing; bad_data when it is not
+/// JSON, has another schema, or its checksum does not hold.
+Result<nlohmann::json> read_checked(const std::filesystem::path& path, std::string_view schema);
+
+}  // namespace flexspline::reports

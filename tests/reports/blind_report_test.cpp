@@ -1,0 +1,208 @@
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "checksum.hpp"
+#include "flexspline/reports/diagnosis_view.hpp"
+#include "flexspline/reports/report.hpp"
+#include "flexspline/reports/trial_view.hpp"
+#include "study_folder.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+using nlohmann::ordered_json;
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The page's text and tables, without the program that draws its figures.
+std::string markup_of(const std::string& html) { return html.substr(0, html.find("<script type")); }
+
+/// Changes an artefact and seals it again.
+void change(const StudyFolder& folder, const std::string& file,
+            const std::function<void(ordered_json&)>& edit) {
+  ordered_json artefact = ordered_json::parse(folder.text(file));
+  artefact.erase("sha256");
+  edit(artefact);
+  artefact["sha256"] = sha256_of(artefact.dump());
+  ASSERT_TRUE(write_file(folder.path() / file, artefact.dump()));
+}
+
+std::vector<std::string> section_ids(const StudyFolder& folder) {
+  std::vector<std::string> ids;
+  const auto report = ordered_json::parse(folder.text("report/report.json"));
+  for (const auto& section : report.at("sections")) ids.push_back(section.at("id"));
+  return ids;
+}
+
+ordered_json figure_of(const StudyFolder& folder, const std::string& id) {
+  const auto report = ordered_json::parse(folder.text("report/report.json"));
+  for (const auto& section : report.at("sections")) {
+    for (const auto& block : section.at("blocks")) {
+      if (block.contains("figure") && block["figure"]["id"] == id) return block["figure"];
+    }
+  }
+  return {};
+}
+
+TEST(DiagnosisReport, TellsTheStoryInOrderFromTheOneArtefact) {
+  const StudyFolder folder("diagnosis_fixture");
+  const auto page = write_report(folder.path());
+  ASSERT_TRUE(page) << page.error().message();
+  EXPECT_EQ(*page, folder.path() / "index.html");
+  EXPECT_EQ(section_ids(folder),
+            (std::vector<std::string>{"verdict", "differs-section", "left-out-section",
+                                      "tried-section", "unseen-section", "confusable-section",
+                                      "moved-section", "provenance-section"}));
+  const std::string html = folder.text("index.html");
+  EXPECT_TRUE(contains(html, "<p class=\"verdict\">Presliding hysteresis was left out:"));
+  EXPECT_TRUE(contains(html, "explains less than presliding hysteresis"));
+  EXPECT_TRUE(contains(html, "a factor of 0.46 (95 %: 0.43 to 0.49)"));
+  EXPECT_TRUE(contains(html, "Record a sine of 0.2 deg at 0.5 Hz"));
+  EXPECT_TRUE(contains(html, "Most of all b1, which moved from 65.6 to 22.1"));
+  EXPECT_TRUE(checksum_holds(folder.text("report/report.json")));
+}
+
+TEST(DiagnosisReport, GivesTheSameBytesAgain) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const std::string page = folder.text("index.html");
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_TRUE(folder.text("index.html") == page);
+}
+
+TEST(DiagnosisReport, BeginsWithTheWorstRecordingAndMarksWhereItDiffers) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json figure = figure_of(folder, "mismatch");
+  EXPECT_EQ(figure["frames"].size(), 4u);
+  const ordered_json& first = figure["frames"][0];
+  EXPECT_EQ(first["choice"][0], "sine-a0.20-f0.05 (held out)");
+  EXPECT_EQ(first["panels"][1]["spans"], ordered_json::parse("[[3.5,7.5],[13.5,17.5]]"));
+  const ordered_json& marked = first["panels"][0]["series"].back();
+  EXPECT_EQ(marked["role"], "highlight");
+  std::size_t inside = 0;
+  for (const ordered_json& value : marked["y"]) inside += value.is_null() ? 0 : 1;
+  EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(marked["y"].size()), 8.0 / 40.0,
+              0.02);
+  EXPECT_FALSE(figure["frames"][1]["panels"][1].contains("spans"));
+}
+
+TEST(DiagnosisReport, ShowsHostileStringsWithoutRunningThem) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const std::string html = folder.text("index.html");
+  EXPECT_FALSE(contains(markup_of(html), "<img"));
+  EXPECT_FALSE(contains(markup_of(html), "<b>"));
+  EXPECT_TRUE(contains(html, "\\u003c/script>\\u003cimg src=x"));
+}
+
+TEST(DiagnosisReport, ShowsNumbersThatDoNotExistAsDashes) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const std::string markup = markup_of(folder.text("index.html"));
+  EXPECT_FALSE(contains(markup, ">nan") || contains(markup, " nan"));
+  EXPECT_TRUE(contains(markup, "<td class=\"n\">–</td>"));
+}
+
+TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
+  const StudyFolder folder("diagnosis_fixture");
+  change(folder, "diagnosis.json", [](ordered_json& json) {
+    json["verdict"] = "adequate";
+    json["says"] = "";
+    for (const char* list : {"mismatch", "causes", "confusable", "tried", "moved", "notes"}) {
+      json[list] = ordered_json::array();
+    }
+    json["next_experiment"] = nullptr;
+    for (const char* key : {"rmse_after_nm", "ratio"}) json["holdout"][key] = nullptr;
+    for (ordered_json& one : json["series"]) one["after"] = one["before"];
+  });
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_EQ(section_ids(folder),
+            (std::vector<std::string>{"verdict", "differs-section", "left-out-section",
+                                      "unseen-section", "provenance-section"}));
+  EXPECT_TRUE(contains(folder.text("index.html"), "Adequate: the baseline explains"));
+  EXPECT_EQ(figure_of(folder, "mismatch")["frames"][0]["panels"][0]["series"].size(), 2u);
+}
+
+TEST(DiagnosisReport, LetsOneChooseTheEquationWhereThereAreSeveral) {
+  const StudyFolder folder("diagnosis_fixture");
+  change(folder, "diagnosis.json", [](ordered_json& json) {
+    json["series"][1]["recording"] = json["series"][0]["recording"];
+    json["series"][1]["equation"] = "motor";
+  });
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json figure = figure_of(folder, "mismatch");
+  EXPECT_EQ(figure["pickers"], ordered_json::parse(R"(["recording", "equation"])"));
+  EXPECT_EQ(figure["frames"][2]["choice"], ordered_json::parse(R"(["sine-slow", "motor"])"));
+}
+
+TEST(DiagnosisReport, DrawsWhatAVelocityOrdersOverTheVelocity) {
+  const StudyFolder folder("diagnosis_fixture");
+  change(folder, "diagnosis.json",
+         [](ordered_json& json) { json["mismatch"][0]["coordinate"] = "velocity"; });
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json figure = figure_of(folder, "over-velocity");
+  ASSERT_FALSE(figure.is_null());
+  EXPECT_EQ(figure["frames"][0]["panels"][0]["x"]["label"], "velocity / deg/s");
+  EXPECT_EQ(figure["frames"][0]["panels"][0]["series"].size(), 2u);
+}
+
+TEST(DiagnosisReport, RefusesADiagnosisThatWasChanged) {
+  const StudyFolder folder("diagnosis_fixture");
+  std::string text = folder.text("diagnosis.json");
+  text.replace(text.find("0.98"), 4, "0.99");
+  ASSERT_TRUE(write_file(folder.path() / "diagnosis.json", text));
+  const auto page = write_report(folder.path());
+  ASSERT_FALSE(page);
+  EXPECT_EQ(page.error().code, ErrorCode::bad_data);
+  EXPECT_TRUE(contains(page.error().message(), "diagnosis.json: its checksum does not hold"));
+}
+
+TEST(TrialReport, ShowsScoresConfusionAndEveryCase) {
+  const StudyFolder folder("trial_fixture");
+  const auto page = write_report(folder.path());
+  ASSERT_TRUE(page) << page.error().message();
+  EXPECT_EQ(*page, folder.path() / "report" / "index.html");
+  EXPECT_EQ(section_ids(folder),
+            (std::vector<std::string>{"verdict", "confusion-section", "detection-section",
+                                      "cases-section", "provenance-section"}));
+  const std::string markup = markup_of(folder.text("report/index.html"));
+  EXPECT_TRUE(contains(markup, "called adequate in 15 of 15 (95 %: 78.2 to 100 %)"));
+  EXPECT_TRUE(contains(markup, "2 of 4 answers are right in full."));
+  EXPECT_TRUE(contains(folder.text("tables/trial-wrong.csv"),
+                       "case-0002,locked,viscoelastic creep,3.0,explained: presliding hysteresis"));
+  EXPECT_FALSE(contains(markup, "<img"));
+}
+
+TEST(TrialReport, PutsRightNamesOfTheConfusionOnTheDiagonal) {
+  const StudyFolder folder("trial_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json panel = figure_of(folder, "confusion")["frames"][0]["panels"][0];
+  const auto& rows = panel["y"]["categories"];
+  const auto& columns = panel["x"]["categories"];
+  EXPECT_EQ(rows.back(), "nothing");
+  EXPECT_EQ(columns.front(), "adequate");
+  EXPECT_EQ(columns.back(), "failed");
+  bool creep = false;
+  for (const ordered_json& cell : panel["cells"]) {
+    creep |= columns.at(cell[0].get<std::size_t>()) == "presliding hysteresis" &&
+             rows.at(cell[1].get<std::size_t>()) == "viscoelastic creep" && cell[2] == 1.0;
+  }
+  EXPECT_TRUE(creep);
+}
+
+TEST(TrialReport, SharesOfASizeAreThoseOfItsCases) {
+  const StudyFolder folder("trial_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json series = figure_of(folder, "detection")["frames"][0]["panels"][0]["series"];
+  EXPECT_EQ(series[0]["x"][0], 2.5);
+  EXPECT_EQ(series[0]["y"][0], 87.5);
+  EXPECT_EQ(series[1]["y"][0], 75.0);
+}
+
+}  // namespace
+}  // namespace flexspline::reports
