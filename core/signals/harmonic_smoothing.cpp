@@ -12,19 +12,46 @@ namespace {
 constexpr Eigen::Index kMostHarmonics = 40;
 constexpr double kSignificance = 4.0;  // standard errors of a harmonic's amplitude
 
-Eigen::MatrixXd harmonics(std::span<const double> time, double period, Eigen::Index order) {
-  const auto n = static_cast<Eigen::Index>(time.size());
-  Eigen::MatrixXd columns(n, 2 * order + 1);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double angle =
-        2.0 * std::numbers::pi * (time[static_cast<std::size_t>(i)] - time.front()) / period;
-    columns(i, 0) = 1.0;
-    for (Eigen::Index k = 1; k <= order; ++k) {
-      columns(i, 2 * k - 1) = std::cos(static_cast<double>(k) * angle);
-      columns(i, 2 * k) = std::sin(static_cast<double>(k) * angle);
-    }
+// 1, cos, sin, cos 2, sin 2, ... of an angle, by rotation.
+template <class Row>
+void fill_harmonics(double angle, Row&& row) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  row[0] = 1.0;
+  row[1] = c;
+  row[2] = s;
+  for (Eigen::Index k = 3; k + 1 < row.size(); k += 2) {
+    row[k] = c * row[k - 2] - s * row[k - 1];
+    row[k + 1] = s * row[k - 2] + c * row[k - 1];
   }
-  return columns;
+}
+
+double angle_at(std::span<const double> time, std::size_t i, double period) {
+  return 2.0 * std::numbers::pi * (time[i] - time.front()) / period;
+}
+
+// Triangular factor of the harmonics with the samples as their last column, chunk by chunk: a long
+// record has as many rows as samples, but never needs all of them at once.
+Eigen::MatrixXd triangular_factor(std::span<const double> time, std::span<const double> samples,
+                                  double period, Eigen::Index order) {
+  constexpr std::size_t kChunk = 2048;
+  const Eigen::Index columns = 2 * order + 2;
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(columns, columns);
+  Eigen::VectorXd row(columns - 1);
+  for (std::size_t first = 0; first < time.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, time.size() - first);
+    Eigen::MatrixXd stacked(columns + static_cast<Eigen::Index>(count), columns);
+    stacked.topRows(columns) = factor;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Index at = columns + static_cast<Eigen::Index>(i);
+      fill_harmonics(angle_at(time, first + i, period), row);
+      stacked.row(at).head(columns - 1) = row;
+      stacked(at, columns - 1) = samples[first + i];
+    }
+    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(stacked);
+    factor = stacked.topRows(columns).triangularView<Eigen::Upper>();
+  }
+  return factor;
 }
 
 // Residual sums of squares of all orders come out of one orthogonal factorisation.
@@ -54,20 +81,17 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
   const double per_cycle = static_cast<double>(n) * period / (time.back() - time.front());
   const Eigen::Index most = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(per_cycle / 6.0), 1,
                                                      std::min(kMostHarmonics, (n - 2) / 4));
-  const Eigen::MatrixXd columns = harmonics(time, period, most);
-  const Eigen::Map<const Eigen::VectorXd> y(samples.data(), n);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  const Eigen::VectorXd rotated = qr.householderQ().transpose() * y;
+  const Eigen::MatrixXd factor = triangular_factor(time, samples, period, most);
+  const Eigen::VectorXd rotated = factor.col(2 * most + 1).head(2 * most + 1);
+  const double total = factor.col(2 * most + 1).squaredNorm();
   const bool choose = kept == Harmonics::significant;
-  const Eigen::Index order = choose ? best_order(rotated, y.squaredNorm(), n, most) : most;
+  const Eigen::Index order = choose ? best_order(rotated, total, n, most) : most;
 
   const Eigen::Index used = 2 * order + 1;
-  Eigen::VectorXd c = qr.matrixQR()
-                          .topLeftCorner(used, used)
-                          .triangularView<Eigen::Upper>()
-                          .solve(rotated.head(used));
-  const double noise =
-      (y - columns.leftCols(used) * c).norm() / std::sqrt(static_cast<double>(n - used));
+  Eigen::VectorXd c =
+      factor.topLeftCorner(used, used).triangularView<Eigen::Upper>().solve(rotated.head(used));
+  const double left = factor.col(2 * most + 1).tail(2 * most + 2 - used).norm();
+  const double noise = left / std::sqrt(static_cast<double>(n - used));
   const double error = noise * std::sqrt(2.0 / static_cast<double>(n));
   Eigen::Index freedom = used;
   for (Eigen::Index k = 2; choose && k <= order; ++k) {
@@ -81,13 +105,14 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
   const double share = static_cast<double>(freedom) / static_cast<double>(n);
   SmoothSignal signal{empty, empty, empty, noise,
                       std::vector<double>(size, noise * std::sqrt(share))};
+  Eigen::VectorXd row(used);
   for (std::size_t i = 0; i < size; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    fill_harmonics(angle_at(time, i, period), row);
     signal.value[i] = c[0];
     for (Eigen::Index k = 1; k <= order; ++k) {
       const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / period;
-      const double in_phase = columns(row, 2 * k - 1);
-      const double quadrature = columns(row, 2 * k);
+      const double in_phase = row[2 * k - 1];
+      const double quadrature = row[2 * k];
       const double value = c[2 * k - 1] * in_phase + c[2 * k] * quadrature;
       signal.value[i] += value;
       signal.rate[i] += w * (c[2 * k] * in_phase - c[2 * k - 1] * quadrature);
