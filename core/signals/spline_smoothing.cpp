@@ -50,20 +50,28 @@ struct Penalised {
   double freedom = 0.0;
 };
 
-// Generalised cross-validation score of one penalty; the trace by random signs (Hutchinson), of
-// which `projected` are the products with the basis.
-Penalised penalised_fit(const Sparse& basis, const Sparse& normal, const Sparse& roughness,
-                        const Eigen::VectorXd& samples, const Eigen::MatrixXd& projected,
-                        double penalty) {
-  const Sparse system = normal + penalty * roughness;
-  const BandedSolver solver(system);
+// The parts of the penalised equations that are the same for every penalty.
+struct Equations {
+  Sparse basis;
+  Sparse normal;
+  Sparse roughness;
+  Eigen::VectorXd samples;
+  Eigen::MatrixXd right;  // products of the basis with the samples, then with random signs
+  BandedSolver solver{};
+};
+
+// Generalised cross-validation score of one penalty; the trace by random signs (Hutchinson).
+Penalised penalised_fit(Equations& equations, double penalty) {
+  equations.solver.factorize(equations.normal + penalty * equations.roughness);
+  const Eigen::MatrixXd solved = equations.solver.solve(equations.right);
   Penalised fit;
-  fit.coefficients = solver.solve(basis.transpose() * samples);
-  const Eigen::MatrixXd smoothed = solver.solve(projected);
-  fit.freedom = (projected.cwiseProduct(smoothed)).sum() / static_cast<double>(projected.cols());
-  const double n = static_cast<double>(samples.size());
+  fit.coefficients = solved.col(0);
+  fit.freedom =
+      equations.right.rightCols(kProbes).cwiseProduct(solved.rightCols(kProbes)).sum() / kProbes;
+  const double n = static_cast<double>(equations.samples.size());
   const double left = std::max(n - fit.freedom, 1.0);
-  fit.score = (samples - basis * fit.coefficients).squaredNorm() * n / (left * left);
+  const Eigen::VectorXd rest = equations.samples - equations.basis * fit.coefficients;
+  fit.score = rest.squaredNorm() * n / (left * left);
   return fit;
 }
 
@@ -80,17 +88,24 @@ SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const doub
   const std::size_t n = time.size();
   const std::size_t intervals = std::clamp<std::size_t>(n / kSamplesPerInterval, 4, kMostIntervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
-  const Sparse b = design(time, basis);
-  const Sparse normal = b.transpose() * b;
   const Sparse differences = third_differences(static_cast<int>(basis.size()));
-  const Sparse roughness = differences.transpose() * differences;
-  const Eigen::Map<const Eigen::VectorXd> y(samples.data(), static_cast<Eigen::Index>(n));
-  const Eigen::MatrixXd projected = b.transpose() * random_signs(y.size());
+  Equations equations{
+      .basis = design(time, basis),
+      .normal = {},
+      .roughness = differences.transpose() * differences,
+      .samples = Eigen::Map<const Eigen::VectorXd>(samples.data(), static_cast<Eigen::Index>(n)),
+      .right = {}};
+  equations.normal = equations.basis.transpose() * equations.basis;
+  equations.right.resize(static_cast<Eigen::Index>(basis.size()), 1 + kProbes);
+  equations.right.col(0) = equations.basis.transpose() * equations.samples;
+  equations.right.rightCols(kProbes) =
+      equations.basis.transpose() * random_signs(equations.samples.size());
+  equations.solver.analyzePattern(equations.normal + equations.roughness);
 
   Penalised best;
   best.score = std::numeric_limits<double>::infinity();
   for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
-    auto fit = penalised_fit(b, normal, roughness, y, projected, std::pow(10.0, exponent));
+    auto fit = penalised_fit(equations, std::pow(10.0, exponent));
     if (fit.score < best.score) best = std::move(fit);
   }
 
