@@ -94,7 +94,7 @@ Result<Artefacts> read_artefacts(const fs::path& folder) {
   if (nothing) {
     return failure(ErrorCode::input_missing,
                    folder.string() + " holds no artefact to draw a report from",
-                   "give the folder that run, fit or compare wrote");
+                   "give the folder that run, fit, compare, diagnose or trial wrote");
   }
   return artefacts;
 }

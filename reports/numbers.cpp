@@ -68,6 +68,12 @@ std::string words(std::string id) {
   return id;
 }
 
+std::string sentence(std::string remark) {
+  if (remark.empty()) return remark;
+  remark.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(remark.front())));
+  return remark.find_last_of(".!?") == remark.size() - 1 ? remark : remark + ".";
+}
+
 std::string slug(const std::string& name) {
   std::string slug;
   for (const unsigned char letter : name) {

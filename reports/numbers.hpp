@@ -29,6 +29,9 @@ double median(std::vector<double> values);
 /// An id as words: stribeck_friction is "stribeck friction".
 std::string words(std::string id);
 
+/// A remark as a sentence: it begins with a capital letter and ends with a full stop.
+std::string sentence(std::string remark);
+
 /// Lower-case letters, digits and hyphens, for ids and file names.
 std::string slug(const std::string& name);
 

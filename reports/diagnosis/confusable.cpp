@@ -43,7 +43,8 @@ std::optional<Section> draw(const DiagnosisView& view) {
   Section section{
       "confusable-section", "What could it be confused with, and what would settle it?", {}};
   if (view.next) {
-    section.add(Verdict{view.next->says.empty() ? experiment_sentence(view) : view.next->says});
+    section.add(
+        Verdict{view.next->says.empty() ? experiment_sentence(view) : sentence(view.next->says)});
     if (!view.next->says.empty()) section.add(Paragraph{experiment_sentence(view)});
   }
   if (!view.confusable.empty()) section.add(confusable_table(view));

@@ -56,7 +56,7 @@ Table causes_table(const DiagnosisView& view) {
     }
     table.rows.push_back({words(cause.effect), 100.0 * cause.size_fraction,
                           100.0 * cause.probability, cause.holdout_ratio,
-                          others.empty() ? "nothing" : others});
+                          others.empty() ? "–" : others});
   }
   return table;
 }
@@ -64,7 +64,7 @@ Table causes_table(const DiagnosisView& view) {
 std::optional<Section> draw(const DiagnosisView& view) {
   Section section{"verdict", "In short", {}};
   const std::string meaning = meaning_of(view.verdict);
-  section.add(Verdict{view.says.empty() ? meaning : view.says});
+  section.add(Verdict{view.says.empty() ? meaning : sentence(view.says)});
   if (!view.says.empty()) section.add(Paragraph{meaning});
   section.add(Paragraph{baseline_sentence(view)});
   if (!view.causes.empty()) section.add(causes_table(view));

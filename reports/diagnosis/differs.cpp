@@ -21,7 +21,7 @@ std::string sentence_of(const DiagnosisView& view) {
   if (!worst.equation.empty()) text += ", in the " + worst.equation + " equation";
   text += " (" + worst.recording + ", " + interval_of(worst) + ")";
   if (!worst.says.empty()) text += ": " + worst.says;
-  return text.ends_with('.') ? text : text + ".";
+  return sentence(text);
 }
 
 Table mismatch_table(const DiagnosisView& view) {

@@ -6,10 +6,15 @@
 namespace flexspline::reports {
 namespace {
 
+/// No finite data make anything certain.
+std::string probability_of(const ShownCause& cause) {
+  return cause.probability > 0.999 ? "above 99.9" : digits(100.0 * cause.probability, 3);
+}
+
 std::string sentence_of(const ShownCause& cause) {
   std::string text = "Left out";
   if (std::isfinite(cause.probability)) {
-    text += " with probability " + digits(100.0 * cause.probability, 3) + " %";
+    text += " with probability " + probability_of(cause) + " %";
   }
   if (std::isfinite(cause.size_fraction)) {
     text += "; at its largest it is " + digits(100.0 * cause.size_fraction, 2) +

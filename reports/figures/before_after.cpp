@@ -63,6 +63,10 @@ Figure before_after_figure(const DiagnosisView& view) {
     panel.marks.push_back({rounded(noise, 3), "noise floor / " + view.units.effort});
   }
   if (before.x.empty()) return figure;
+  const auto largest = [](const Series& series) {
+    return series.x.empty() ? 0.0 : *std::max_element(series.x.begin(), series.x.end());
+  };
+  panel.x.range = {0.0, rounded(1.05 * std::max(largest(before), largest(after)), 2)};
   panel.series.push_back(std::move(before));
   if (!after.x.empty()) panel.series.push_back(std::move(after));
   figure.frames.push_back({{}, {std::move(panel)}});

@@ -10,6 +10,21 @@ namespace {
 constexpr std::size_t kNumbersInPicture = 150'000;
 constexpr std::size_t kNumbersOfAPoint = 8;  ///< two panels, their axes and three lines each
 
+/// Several mismatches may share their place: each stretch of time once.
+std::vector<Span> merged(std::vector<Span> spans) {
+  std::sort(spans.begin(), spans.end(),
+            [](const Span& a, const Span& b) { return a.from < b.from; });
+  std::vector<Span> apart;
+  for (const Span& span : spans) {
+    if (apart.empty() || span.from > apart.back().to) {
+      apart.push_back(span);
+    } else {
+      apart.back().to = std::max(apart.back().to, span.to);
+    }
+  }
+  return apart;
+}
+
 std::vector<Span> spans_of(const DiagnosisView& view, const ShownSeries& series) {
   std::vector<Span> spans;
   for (const ShownMismatch& one : view.mismatch) {
@@ -19,7 +34,7 @@ std::vector<Span> spans_of(const DiagnosisView& view, const ShownSeries& series)
       spans.push_back({one.from_s, one.to_s});
     }
   }
-  return spans;
+  return merged(std::move(spans));
 }
 
 /// What was measured inside the spans, nothing elsewhere.

@@ -128,6 +128,16 @@ TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
   EXPECT_EQ(figure_of(folder, "mismatch")["frames"][0]["panels"][0]["series"].size(), 2u);
 }
 
+TEST(DiagnosisReport, HighlightsAStretchThatSeveralMismatchesShareOnce) {
+  const StudyFolder folder("diagnosis_fixture");
+  change(folder, "diagnosis.json", [](ordered_json& json) {
+    json["mismatch"][1]["interval_s"] = {6.0, 9.0};
+  });
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_EQ(figure_of(folder, "mismatch")["frames"][0]["panels"][1]["spans"],
+            ordered_json::parse("[[3.5,9.0]]"));
+}
+
 TEST(DiagnosisReport, LetsOneChooseTheEquationWhereThereAreSeveral) {
   const StudyFolder folder("diagnosis_fixture");
   change(folder, "diagnosis.json", [](ordered_json& json) {

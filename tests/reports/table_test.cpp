@@ -74,6 +74,12 @@ TEST(Numbers, LabelsHaveNoZerosAtTheEnd) {
   EXPECT_EQ(compact(8.0, 6), "8");
 }
 
+TEST(Numbers, RemarksBecomeSentences) {
+  EXPECT_EQ(sentence("it lags"), "It lags.");
+  EXPECT_EQ(sentence("Already one."), "Already one.");
+  EXPECT_EQ(sentence(""), "");
+}
+
 TEST(Numbers, SlugsAreFileNames) {
   EXPECT_EQ(slug("h even/../<b>"), "h-even-b");
   EXPECT_EQ(slug("<>"), "unnamed");

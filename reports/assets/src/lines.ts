@@ -88,7 +88,7 @@ function markOption(panel: Panel): Option {
     data: (panel.marks ?? []).map((mark) => {
       const again = labelled.has(mark.label);
       labelled.add(mark.label);
-      return { xAxis: mark.at, label: { show: !again && mark.at > 0, formatter: shown(mark.at, 3), color: theme().muted, fontSize: 11, position: "end" } };
+      return { xAxis: mark.at, label: { show: !again && mark.at > 0, formatter: shown(mark.at, 3), color: theme().muted, fontSize: 11, position: panel.y.categories ? "start" : "end" } };
     }),
   };
 }

@@ -21,7 +21,7 @@ CommandRow describe_report() {
   return {.id = "report",
           .summary = "Draws the report again from the artefacts alone",
           .arguments = {{.name = "dir",
-                         .meaning = "folder of a run, fit or comparison",
+                         .meaning = "folder of a run, fit, comparison, diagnosis or trial",
                          .value = "DIR",
                          .required = true}},
           .example = "flexspline report out/paper",

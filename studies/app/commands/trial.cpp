@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "flexspline/reports/report.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "run_folder.hpp"
 #include "stop_signal.hpp"
@@ -68,10 +69,12 @@ Result<ExitCode> show(const studies::TrialSummary &summary, const std::filesyste
                       Console &console) {
   for (const std::string &one : summary.not_concealed) console.say("not concealed: " + one);
   for (const std::string &one : summary.run.failed) console.error(one);
+  const auto page = reports::write_report(folder);
+  if (!page) return tl::unexpected(page.error());
   const TrialScores scores = studies::score_trial(summary.cases);
-  const std::string file = (folder / "trial.json").string();
   if (console.json) {
-    nlohmann::ordered_json text = {{"trial", file},
+    nlohmann::ordered_json text = {{"trial", (folder / "trial.json").string()},
+                                   {"report", page->string()},
                                    {"cases", summary.run.cases},
                                    {"computed", summary.run.computed},
                                    {"reused", summary.run.reused},
@@ -83,7 +86,7 @@ Result<ExitCode> show(const studies::TrialSummary &summary, const std::filesyste
     console.result(text.dump(2));
   } else {
     console.say(summary_of(scores));
-    console.result(file);
+    console.result(page->string());
   }
   return summary.run.failed.empty() && summary.not_concealed.empty() ? kDone : kSomethingFailed;
 }
