@@ -19,6 +19,9 @@ using Eigen::MatrixXd;
 constexpr int kElasticKnots = 7;
 constexpr int kDissipativeKnots = 11;
 constexpr std::size_t kTravelIntervals = 24;
+constexpr Index kDryWidths = 7;
+constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
+constexpr double kWidest = 0.1;
 constexpr double kFree = -std::numeric_limits<double>::infinity();
 
 std::vector<double> even_knots(int count) {
@@ -90,26 +93,29 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  const double width = coulomb_width(frame, Equation::torsion, shape);
+  const double width = coulomb_width(frame, shape);
   c.columns.col(f) = (frame.torsion_rate / width).tanh();
   c.columns.col(f + 1) = frame.torsion_rate / frame.rate_range;
   return c;
 }
 
-// Dry friction saturates as tanh(w/w_e), as w/sqrt(w^2 + w_e^2), or between the two.
-BaselineColumns motor_columns(const Frame& frame, std::span<const double> shape) {
-  BaselineColumns c{MatrixXd(frame.rows(), 3), Eigen::VectorXd::Zero(3), 0, 3};
-  const ArrayXd slow = frame.motor_speed / coulomb_width(frame, Equation::motor, shape);
+// Dry friction rises and saturates in its own way: a mixture of tanh of several widths.
+BaselineColumns motor_columns(const Frame& frame) {
+  const Index n = kDryWidths;
+  BaselineColumns c{MatrixXd(frame.rows(), 1 + n), Eigen::VectorXd::Zero(1 + n), 1, n};
   c.columns.col(0) = frame.motor_speed;
-  c.columns.col(1) = slow.tanh();
-  c.columns.col(2) = slow / (1.0 + slow.square()).sqrt();
+  for (Index k = 0; k < n; ++k) {
+    const double width = frame.speed_range * kNarrowest *
+                         std::pow(kWidest / kNarrowest, static_cast<double>(k) / (n - 1.0));
+    c.columns.col(1 + k) = (frame.motor_speed / width).tanh();
+  }
   return c;
 }
 
 }  // namespace
 
-double coulomb_width(const Frame& frame, Equation equation, std::span<const double> shape) {
-  if (equation == Equation::motor || frame.travels) return std::exp(shape[0]);
+double coulomb_width(const Frame& frame, std::span<const double> shape) {
+  if (frame.travels) return std::exp(shape[0]);
   return std::max(frame.slow_rate, 1e-3 * frame.rate_range);
 }
 
@@ -132,7 +138,7 @@ BaselineColumns baseline_columns(const Frame& frame, Equation equation,
     return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
   }
   if (equation == Equation::load) return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1};
-  return motor_columns(frame, shape);
+  return motor_columns(frame);
 }
 
 }  // namespace flexspline::studies

@@ -12,8 +12,8 @@ namespace flexspline::studies {
 struct BaselineColumns {
   Eigen::MatrixXd columns;
   Eigen::VectorXd lower;
-  Eigen::Index elastic = 0;      ///< the first columns: f
-  Eigen::Index dissipative = 0;  ///< the next: g^-1
+  Eigen::Index elastic = 0;      ///< the first columns: f; of the motor: viscous friction
+  Eigen::Index dissipative = 0;  ///< the next: g^-1; of the motor: dry friction
 };
 
 /// What the equation's own output is, measured: tau, tau - J2 theta_l'', tau_m - J1 theta_m'' -
@@ -23,7 +23,7 @@ Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape);
 
-/// Rate below which the dry friction of a travelling specimen, or the motor, is rounded off.
-double coulomb_width(const Frame& frame, Equation equation, std::span<const double> shape);
+/// Rate below which dry friction across the gear is rounded off.
+double coulomb_width(const Frame& frame, std::span<const double> shape);
 
 }  // namespace flexspline::studies

@@ -25,8 +25,8 @@ struct Shape {
 struct Reference {
   Eigen::ArrayXd elastic;             ///< f(phi)
   Eigen::ArrayXd dissipative;         ///< g^-1(phi'/h)
-  double motor_coulomb_speed = 1.0;   ///< rad/s at which the motor's dry friction saturates
-  double torsion_coulomb_rate = 1.0;  ///< rad/s (m/s), the same across the transmission
+  Eigen::ArrayXd motor_sign;          ///< the motor's dry friction over its largest value
+  double torsion_coulomb_rate = 1.0;  ///< rad/s (m/s) at which that across the gear saturates
 };
 
 using Columns = std::vector<Eigen::ArrayXd>;

@@ -48,7 +48,7 @@ Result<Channels> channels_of(const RecordingSet& set, const Recording& recording
   auto drive = channels_with(set, recording, periodic);
   if (!drive) return tl::unexpected(drive.error());
   Channels c{&recording, std::move(*drive), {}, {}, {}, {}};
-  if (set.rig != Rig::specimen && !c.drive.transmitted_torque.empty()) {
+  if (!c.drive.transmitted_torque.empty()) {
     smooth_torque(recording, c.drive.transmitted_torque, c.smooth_torque, c.torque_rate);
   }
   if (!c.drive.motor_torque.empty()) {

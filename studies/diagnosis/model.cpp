@@ -45,9 +45,6 @@ class Layout {
   std::vector<double> shapes_start() const {
     std::vector<double> q;
     if (fits(Equation::torsion)) q = model_.torsion_shape;
-    if (fits(Equation::motor)) {
-      q.insert(q.end(), model_.motor_shape.begin(), model_.motor_shape.end());
-    }
     for (std::size_t c = 0; c < model_.causes.size(); ++c) {
       for (std::size_t s = 0; s < shapes_[c].size(); ++s) {
         q.push_back(inner(shapes_[c][s], model_.causes[c].shape[s]));
@@ -67,9 +64,6 @@ class Layout {
     } else if (fits(Equation::torsion)) {
       add(-2.0, 2.0), add(-2.0, 2.0), add(-kMostZeroError, kMostZeroError);
     }
-    if (fits(Equation::motor)) {
-      add(std::log(1e-4 * frame_.speed_range), std::log(0.3 * frame_.speed_range));
-    }
     for (const auto& shapes : shapes_) {
       for (const Shape& s : shapes) {
         if (s.discrete) {
@@ -88,9 +82,6 @@ class Layout {
     std::size_t next = 0;
     if (fits(Equation::torsion)) {
       for (double& value : model.torsion_shape) value = q[next++];
-    }
-    if (fits(Equation::motor)) {
-      for (double& value : model.motor_shape) value = q[next++];
     }
     for (std::size_t c = 0; c < model.causes.size(); ++c) {
       for (std::size_t s = 0; s < shapes_[c].size(); ++s) {
@@ -112,7 +103,6 @@ class Layout {
 
 std::span<const double> shape_of(const DriveModel& model, Equation equation) {
   if (equation == Equation::torsion) return model.torsion_shape;
-  if (equation == Equation::motor) return model.motor_shape;
   return {};
 }
 
@@ -258,7 +248,6 @@ DriveModel first_guess(const Frame& frame) {
   } else {
     model.torsion_shape = {0.0, 0.0, 0.0};
   }
-  if (frame.has(Equation::motor)) model.motor_shape = {std::log(0.005 * frame.speed_range)};
   return model;
 }
 
@@ -308,14 +297,24 @@ ModelFit evaluate(const Frame& frame, const DriveModel& model, const Reference& 
   return fit;
 }
 
+ArrayXd motor_sign(const Frame& frame, const DriveModel& model) {
+  const std::size_t e = index_of(Equation::motor);
+  const double narrow = 0.01 * std::max(frame.speed_range, 1e-300);
+  if (model.own.size() <= e || model.own[e].size() == 0) {
+    return rounded_sign(frame.motor_speed, narrow);
+  }
+  const auto own = baseline_columns(frame, Equation::motor, {});
+  const Eigen::VectorXd dry = model.own[e].segment(own.elastic, own.dissipative);
+  if (!(dry.sum() > 0.0)) return rounded_sign(frame.motor_speed, narrow);
+  return (own.columns.middleCols(own.elastic, own.dissipative) * dry).array() / dry.sum();
+}
+
 Reference reference_of(const Frame& frame, const DriveModel& model) {
   Reference reference;
   reference.elastic = ArrayXd::Zero(frame.rows());
   reference.dissipative = ArrayXd::Zero(frame.rows());
-  if (frame.has(Equation::motor)) {
-    reference.motor_coulomb_speed = coulomb_width(frame, Equation::motor, model.motor_shape);
-  }
-  reference.torsion_coulomb_rate = coulomb_width(frame, Equation::torsion, model.torsion_shape);
+  reference.motor_sign = motor_sign(frame, model);
+  reference.torsion_coulomb_rate = coulomb_width(frame, model.torsion_shape);
   const std::size_t e = index_of(Equation::torsion);
   if (model.own.size() <= e || model.own[e].size() == 0) return reference;
   const Transformed frames(frame, model);

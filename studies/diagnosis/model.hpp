@@ -25,11 +25,10 @@ inline std::size_t index_of(Equation equation) { return static_cast<std::size_t>
 /// g^-1 odd and rising, ln h = c1 x^2 + c2 x^4, phi from a zero of its own, with an offset on a
 /// specimen; a travelling
 /// specimen f(angle) free, Coulomb and viscous friction; load tau = J2 theta_l'' + B2 theta_l';
-/// motor tau_m = J1 theta_m'' + B1 theta_m' + tau/N and dry friction that saturates at w as tanh
-/// or its algebraic kin.
+/// motor tau_m = J1 theta_m'' + B1 theta_m' + tau/N and dry friction, a mixture of
+/// tanh(theta_m'/w).
 struct DriveModel {
   std::vector<double> torsion_shape;  ///< c1, c2, zero; travelling: ln of the Coulomb rate
-  std::vector<double> motor_shape;    ///< ln w
   std::vector<ActiveCause> causes;
   std::vector<Eigen::VectorXd> own;           ///< linear coefficients of the baseline by equation
   std::vector<Eigen::VectorXd> coefficients;  ///< of each cause

@@ -72,7 +72,6 @@ ModelFit merged(ModelFit whole, const ModelFit& fit, const Part& part,
     whole.prediction[e] = fit.prediction[e];
     whole.sum_of_squares[e] = fit.sum_of_squares[e];
     if (equation == Equation::torsion) whole.model.torsion_shape = fit.model.torsion_shape;
-    if (equation == Equation::motor) whole.model.motor_shape = fit.model.motor_shape;
   }
   whole.model.coefficients.resize(whole.model.causes.size());
   for (std::size_t i = 0; i < part.position.size(); ++i) {

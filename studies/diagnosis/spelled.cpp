@@ -249,7 +249,8 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s)
   if (frame.has(Equation::motor)) {
     const std::size_t e = index_of(Equation::motor);
     add("motor drag B1", before.own[e][0], after.own[e][0], "Nm s/rad");
-    add("motor Coulomb friction", before.own[e][1], after.own[e][1], "Nm");
+    add("motor Coulomb friction", before.own[e].tail(before.own[e].size() - 1).sum(),
+        after.own[e].tail(after.own[e].size() - 1).sum(), "Nm");
   }
   return list;
 }

@@ -37,6 +37,25 @@ void whole_gear(Frame& f, Values shape) {
   f.torsion = wound(f.torsion, shape[0]);
 }
 
+std::vector<Shape> lost_motion(const Frame& f) {
+  return {{.name = "half_gap",
+           .unit = "rad",
+           .lower = 0.005 * f.torsion_range,
+           .upper = 0.7 * f.torsion_range,
+           .grid = 6},
+          {.name = "width",
+           .unit = "Nm",
+           .lower = 0.003 * f.torque_range,
+           .upper = 0.3 * f.torque_range}};
+}
+
+// The gap is crossed as the torque changes sign: e = b tau/sqrt(tau^2 + t^2).
+void around_zero_torque(Frame& f, Values shape) {
+  const ArrayXd root = (f.smooth_torque.square() + shape[1] * shape[1]).sqrt();
+  f.torsion -= shape[0] * f.smooth_torque / root;
+  f.torsion_rate -= shape[0] * shape[1] * shape[1] * f.torque_rate / root.cube();
+}
+
 // The gap opens again at every reversal: what is driven stands still until it is crossed.
 void after_reversal(Frame& f, Values shape) {
   for (const Segment& s : f.segments) {
@@ -68,6 +87,11 @@ CauseRow describe_backlash() {
                      .at = at,
                      .shapes = gap,
                      .transform = whole_gear},
+                    {.equation = "f(phi_e) + g^-1(phi_e'/h), phi_e = phi - b tau/sqrt(tau^2 + t^2)",
+                     .rigs = kAnyRig,
+                     .at = at,
+                     .shapes = lost_motion,
+                     .transform = around_zero_torque},
                     {.equation = "f(p) + g^-1(p'/h), p the play of phi by b on either side",
                      .rigs = {Rig::specimen},
                      .at = at,

@@ -7,8 +7,7 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 Columns at_motor(Equation, const Frame& f, const Reference& known, Values) {
-  return {rounded_sign(f.motor_speed, known.motor_coulomb_speed).square(),
-          f.motor_speed.abs() / f.speed_range};
+  return {known.motor_sign.square(), f.motor_speed.abs() / f.speed_range};
 }
 
 Columns across(Equation, const Frame& f, const Reference& known, Values) {

@@ -23,6 +23,18 @@ void runout(Frame& f, Values shape) {
       f.load_acceleration * first - f.load_speed.square() * (shape[0] * s + shape[1] * c);
 }
 
+// The same of the motor's encoder, once a turn; the motor itself does not move by it.
+void motor_runout(Frame& f, Values shape) {
+  const ArrayXd s = f.motor_angle.sin();
+  const ArrayXd c = f.motor_angle.cos();
+  f.torsion += shape[0] * s + shape[1] * c;
+  f.torsion_rate += f.motor_speed * (shape[0] * c - shape[1] * s);
+}
+
+std::vector<double> motor_start(const Frame& f) {
+  return periodic_torsion(f, f.motor_angle, {1.0});
+}
+
 std::vector<double> start(const Frame& f) { return periodic_torsion(f, f.load_angle, {1.0}); }
 
 }  // namespace
@@ -35,7 +47,13 @@ CauseRow describe_encoder_eccentricity() {
                      .at = {Equation::torsion, Equation::load},
                      .shapes = amplitudes,
                      .transform = runout,
-                     .start = start}}};
+                     .start = start},
+                    {.equation = "theta_m,measured = theta_m + N e sin(theta_m + p)",
+                     .rigs = {Rig::free},
+                     .at = {Equation::torsion},
+                     .shapes = amplitudes,
+                     .transform = motor_runout,
+                     .start = motor_start}}};
 }
 
 }  // namespace flexspline::studies

@@ -7,7 +7,9 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 Columns twice_a_turn(Equation equation, const Frame& f, const Reference&, Values) {
-  return of_torque_signal(equation, f, sine_pair(f.motor_angle, 2.0));
+  Columns terms = sine_pair(f.motor_angle, 2.0);
+  terms.push_back(ArrayXd::Ones(f.rows()));  // zeroed wherever the motor stood
+  return of_torque_signal(equation, f, std::move(terms));
 }
 
 }  // namespace
@@ -15,7 +17,7 @@ Columns twice_a_turn(Equation equation, const Frame& f, const Reference&, Values
 CauseRow describe_sensor_crosstalk() {
   return {.id = "sensor_crosstalk",
           .coordinate = "motor_angle",
-          .forms = {{.equation = "tau_measured = tau + a sin(2 theta_m + p)",
+          .forms = {{.equation = "tau_measured = tau + a (sin(2 theta_m + p) - o)",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
                      .columns = twice_a_turn}}};

@@ -19,7 +19,7 @@ ArrayXd fading(const ArrayXd& speed, Values shape) {
 }
 
 Columns at_motor(Equation, const Frame& f, const Reference& known, Values shape) {
-  return {fading(f.motor_speed, shape) * rounded_sign(f.motor_speed, known.motor_coulomb_speed)};
+  return {fading(f.motor_speed, shape) * known.motor_sign};
 }
 
 Columns across(Equation, const Frame& f, const Reference& known, Values shape) {

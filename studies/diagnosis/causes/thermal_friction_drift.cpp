@@ -16,8 +16,7 @@ std::vector<Shape> warming(const Frame& f) {
 
 Columns at_motor(Equation, const Frame& f, const Reference& known, Values shape) {
   const ArrayXd cold = cold_share(f, shape[0]);
-  return {cold * rounded_sign(f.motor_speed, known.motor_coulomb_speed),
-          cold * f.motor_speed / f.speed_range};
+  return {cold * known.motor_sign, cold * f.motor_speed / f.speed_range};
 }
 
 Columns across(Equation, const Frame& f, const Reference& known, Values shape) {

@@ -6,8 +6,9 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
+// tau_m,recorded = (J1 theta_m'' + friction + tau/N)/(1 + e); friction is free to scale.
 Columns gain(Equation, const Frame& f, const Reference&, Values) {
-  return {-f.smooth_motor_torque};
+  return {-(f.motor_inertia * f.motor_acceleration + f.torque / f.ratio)};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ using Values = std::span<const double>;
 // The torsion law takes the gain up in f and g^-1; known inertias do not.
 Columns gain(Equation equation, const Frame& f, const Reference&, Values) {
   if (equation == Equation::load) return {f.load_inertia * f.load_acceleration};
-  return {-f.smooth_torque / f.ratio};
+  return {-f.torque / f.ratio};
 }
 
 }  // namespace
