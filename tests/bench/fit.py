@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""fit.py FLEXSPLINE BENCH [NAME=VALUE ...]: flexspline fit --estimator torque_driven on the data set
-that convert.py left in BENCH/dataset, and one line of JSON as the peers print it: wall_s (the fit
-alone, as the estimate states it), process_s (the command from its start to its end) and theta in the
-benchmark's units. NAME=VALUE are options of the method."""
+"""fit.py FLEXSPLINE BENCH [NAME=VALUE ...] [--jobs N]: flexspline fit --estimator torque_driven on
+the data set that convert.py left in BENCH/dataset, and one line of JSON as the peers print it:
+wall_s (the fit alone, as the estimate states it), process_s (the command from its start to its end)
+and theta in the benchmark's units. NAME=VALUE are options of the method. With --jobs 1 nothing else
+of the command runs beside the fit."""
 import json
 import math
 import pathlib
@@ -27,10 +28,13 @@ def theta(model):
 def main(program, bench, options):
     data = pathlib.Path(bench) / "dataset"
     sizes = json.loads((data / "bench.json").read_text())["sizes"]
+    others = [word for word in options if "=" not in word]
+    options = [word for word in options if "=" in word]
     options = ["%s_terms=%d" % pair for pair in zip("fgh", sizes)] + options
     with tempfile.TemporaryDirectory() as folder:
         command = [program, "--quiet", "fit", str(data), "--estimator", "torque_driven"]
         command += ["--out", folder] + [word for o in options for word in ("--option", o)]
+        command += others
         started = time.perf_counter()
         done = subprocess.run(command, capture_output=True, text=True)
         seconds = time.perf_counter() - started
@@ -40,7 +44,7 @@ def main(program, bench, options):
     print(
         json.dumps(
             {
-                "peer": "flexspline " + " ".join(options[3:]),
+                "peer": " ".join(["flexspline"] + options[3:] + others),
                 "wall_s": estimate["seconds"],
                 "process_s": seconds,
                 "evaluations": estimate["evaluations"],
