@@ -38,6 +38,12 @@ std::vector<std::string> labels_of(const std::set<std::string>& names) {
   return labels;
 }
 
+bool is_right(const ShownConfusion& one) {
+  if (one.truth == "nothing") return one.named == "adequate";
+  if (one.truth.starts_with("unknown:")) return one.named == "no name";
+  return one.truth == one.named;
+}
+
 int index_in(const std::vector<std::string>& labels, const std::string& name) {
   return static_cast<int>(std::find(labels.begin(), labels.end(), name) - labels.begin());
 }
@@ -100,9 +106,9 @@ Figure confusion_figure(const TrialView& view) {
   figure.kind = "heatmap";
   figure.title = "What was hidden, and what was named first";
   figure.caption =
-      "Cases in a row hid the same thing; columns are the first name given. A diagnosis that is "
-      "right has its cases on the matching column; what stands beside it tells what is taken for "
-      "what.";
+      "Numbers are cases; those in a row hid the same thing, columns are the first name given. A "
+      "tick marks the right answer; what stands beside it is what it was taken for. Of two effects "
+      "a first name can only be one.";
   figure.alt = "Confusion matrix: hidden effect by row, first name by column, number of cases.";
   figure.cell_unit = "cases";
   std::set<std::string> truths, names;
@@ -110,6 +116,8 @@ Figure confusion_figure(const TrialView& view) {
   for (const ShownConfusion& one : view.confusion) {
     truths.insert(one.truth);
     names.insert(one.named);
+    if (rank_of(one.truth) == 0) names.insert(one.truth);
+    if (rank_of(one.named) == 0) truths.insert(one.named);
     most = std::max(most, one.count);
   }
   std::vector<std::string> rows = labels_of(truths);
@@ -119,7 +127,8 @@ Figure confusion_figure(const TrialView& view) {
   panel.x = {"named first", false, in_words(columns), {}};
   panel.y = {"hidden", false, in_words(rows), {}};
   for (const ShownConfusion& one : view.confusion) {
-    panel.cells.push_back({index_in(columns, one.named), index_in(rows, one.truth), one.count, ""});
+    panel.cells.push_back({index_in(columns, one.named), index_in(rows, one.truth), one.count,
+                           is_right(one) ? "right" : ""});
   }
   figure.scale = {1.0, std::pow(10.0, std::max(1.0, std::ceil(std::log10(most))))};
   if (!panel.cells.empty()) figure.frames.push_back({{}, {std::move(panel)}});

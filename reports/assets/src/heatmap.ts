@@ -6,7 +6,7 @@ import { heatColours, inkOn, kFont, kTooltipCss, theme } from "./theme";
 
 type Option = Record<string, any>;
 
-const kNotes: Record<string, string> = { trained: " T", outside: " *" };
+const kNotes: Record<string, string> = { trained: " T", outside: " *", right: " ✓" };
 
 function shareOf(value: number, scale: [number, number]): number {
   const [low, high] = scale.map(Math.log10);
@@ -31,19 +31,21 @@ function cellOption(cell: Cell, scale: [number, number], unit: string): Option {
 
 function tooltipText(panel: Panel, item: any, unit: string): string {
   const [column, row, , value] = item.value;
-  const said = { trained: "trained on this recording", outside: "outside its domain of validity" }[item.data.note as string];
+  const said = { trained: "trained on this recording", outside: "outside its domain of validity", right: "the right answer" }[item.data.note as string];
   const place = `${panel.y.label}: ${panel.y.categories?.[row]}, ${panel.x.label}: ${panel.x.categories?.[column]}`;
   return `${escapeHtml(place)}<br><b>${unit.startsWith("%") ? shown(value, 3) : value}</b> ${escapeHtml(unit)}${said ? `<br>${said}` : ""}`;
 }
 
-const kMostUpright = 8;
-
-/** Many columns have their names written upwards, and a width below which the map scrolls. */
-const isWide = (panel: Panel) => (panel.x.categories?.length ?? 0) > kMostUpright;
+/** Names that would run into each other are written upwards. */
+function isWide(panel: Panel): boolean {
+  const names = panel.x.categories ?? [];
+  const longest = Math.max(0, ...names.map((name) => Math.min(name.length, 24)));
+  return names.length * (6.2 * longest + 8) > Math.min(window.innerWidth, 1240) - 220;
+}
 
 export function fitHeatmap(place: HTMLElement, panel: Panel): void {
   if (!isWide(panel)) return;
-  place.style.minWidth = `${220 + 34 * panel.x.categories!.length}px`;
+  place.style.minWidth = `${200 + 34 * panel.x.categories!.length}px`;
   place.style.height = `${230 + 30 * (panel.y.categories?.length ?? 0)}px`;
 }
 
