@@ -146,6 +146,7 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   parse_list(artefact, "moved", parse_move, view.moved);
   view.next = parse_experiment(member(artefact, "next_experiment"));
   parse_list(artefact, "series", parse_series, view.series);
+  view.has_model = !member(artefact, "model").empty();
   view.notes = texts_in(artefact, "notes");
   return view;
 }

@@ -19,7 +19,7 @@ constexpr const char* kSimulate =
 std::optional<Section> draw(const DiagnosisView& view) {
   Section section{"provenance-section", "Where this comes from, and how to get it again", {}};
   for (const std::string& note : view.notes) section.add(Paragraph{note});
-  section.add(Listing{view.causes.empty() ? kCommands : std::string(kCommands) + kSimulate});
+  section.add(Listing{view.has_model ? std::string(kCommands) + kSimulate : kCommands});
   Table table{"provenance",
               "The checksum is that of what the recordings say, not of their names.",
               {{"what", "", 3}, {"value", "", 3}},

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/data/estimate_json.hpp"
+
 namespace flexspline::studies {
 namespace {
 
@@ -166,6 +168,7 @@ Json to_json(const Diagnosis& diagnosis) {
   json["moved"] = list_of(diagnosis.moved, moved_json);
   json["series"] = list_of(diagnosis.series,
                            [&](const DiagnosedSeries& one) { return series_json(one, diagnosis); });
+  json["model"] = diagnosis.model ? data::to_json(*diagnosis.model) : Json(nullptr);
   json["notes"] = diagnosis.notes;
   json["seconds"] = number(diagnosis.seconds);
   return json;

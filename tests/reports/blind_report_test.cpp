@@ -138,6 +138,15 @@ TEST(DiagnosisReport, HighlightsAStretchThatSeveralMismatchesShareOnce) {
             ordered_json::parse("[[3.5,9.0]]"));
 }
 
+TEST(DiagnosisReport, OffersToSimulateOnlyAModelThatIsThere) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_TRUE(contains(folder.text("index.html"), "flexspline simulate DIR/model.toml"));
+  change(folder, "diagnosis.json", [](ordered_json& json) { json["model"] = nullptr; });
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_FALSE(contains(folder.text("index.html"), "flexspline simulate"));
+}
+
 TEST(DiagnosisReport, LetsOneChooseTheEquationWhereThereAreSeveral) {
   const StudyFolder folder("diagnosis_fixture");
   change(folder, "diagnosis.json", [](ordered_json& json) {

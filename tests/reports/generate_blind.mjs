@@ -66,6 +66,7 @@ write("diagnosis_fixture/diagnosis.json", {
   ],
   moved: [{ name: "b1", before: 65.6, after: 22.1, std: 1.3, unit: "Nm s/deg" }, { name: "a1", before: 14.133, after: 14.02, std: 0.1, unit: "Nm/deg" }, { name: kHostile, before: null, after: null, std: null, unit: "" }],
   series: kRecordings.map((one) => seriesOf(...one)),
+  model: { effects: [{ effect: "presliding_hysteresis", parameters: [0.11, 1.08] }] },
   notes: ["sine-fast: the first 0.3 s are marked invalid and were not used", kHostile],
   seconds: 12.4,
 });

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "flexspline/data/estimate_json.hpp"
+
 namespace flexspline::studies {
 namespace {
 
@@ -126,6 +128,13 @@ TEST(DiagnosisJson, WritesWhatWasNotComputedAsNull) {
         "/seconds"}) {
     EXPECT_TRUE(json.at(ordered_json::json_pointer(pointer)).is_null()) << pointer;
   }
+}
+
+TEST(DiagnosisJson, HoldsTheModelToTheLastBitWhereThereIsOne) {
+  Diagnosis diagnosis;
+  EXPECT_TRUE(to_json(diagnosis)["model"].is_null());
+  diagnosis.model = ModelSpec{};
+  EXPECT_EQ(to_json(diagnosis)["model"], data::to_json(*diagnosis.model));
 }
 
 struct Conversion {

@@ -88,6 +88,7 @@ struct DiagnosisView {
   std::vector<ShownSeries> series;
   std::vector<std::string> notes;
   double seconds = kAbsent;
+  bool has_model = false;  ///< that simulate and fit take
 
   bool adequate() const { return verdict == "adequate"; }
   /// Whether more than one equation of the drive was looked at.
