@@ -65,7 +65,7 @@ std::optional<Section> draw(const DiagnosisView& view) {
   Section section{"verdict", "In short", {}};
   const std::string meaning = meaning_of(view.verdict);
   section.add(Verdict{view.says.empty() ? meaning : sentence(view.says)});
-  if (!view.says.empty()) section.add(Paragraph{meaning});
+  if (!view.says.empty() && !view.adequate()) section.add(Paragraph{meaning});
   section.add(Paragraph{baseline_sentence(view)});
   if (!view.causes.empty()) section.add(causes_table(view));
   return section;

@@ -48,7 +48,7 @@ std::optional<Section> draw(const DiagnosisView& view) {
   section.add(Verdict{sentence_of(view)});
   if (Figure figure = mismatch_figure(view); !figure.frames.empty()) {
     section.add(std::move(figure));
-    section.add(remainder_figure());
+    section.add(remainder_figure(view));
   }
   if (Figure figure = over_velocity_figure(view); !figure.frames.empty()) {
     section.add(std::move(figure));

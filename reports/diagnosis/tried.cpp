@@ -15,6 +15,12 @@ std::vector<ShownCandidate> ranked(std::vector<ShownCandidate> tried) {
   return tried;
 }
 
+/// Shares of a misfit that is not there say nothing.
+void blank_misfit(Table& table) {
+  constexpr std::size_t kMisfit = 2;
+  for (auto& row : table.rows) row[kMisfit] = kAbsent;
+}
+
 Table tried_table(const DiagnosisView& view) {
   Table table{
       "tried",
@@ -31,6 +37,7 @@ Table tried_table(const DiagnosisView& view) {
     table.rows.push_back({std::to_string(one.round), words(one.effect), 100.0 * one.misfit_removed,
                           one.delta_bic, one.holdout_ratio, one.outcome});
   }
+  if (view.adequate()) blank_misfit(table);
   return without_empty_columns(std::move(table));
 }
 
@@ -41,9 +48,11 @@ std::string summary_of(const DiagnosisView& view) {
       names.push_back(one.effect);
     }
   }
-  return std::to_string(names.size()) + " effects of the catalogue exist on such a rig and were " +
-         "tried; " + std::to_string(view.causes.size()) +
-         (view.causes.size() == 1 ? " was" : " were") + " accepted.";
+  const std::size_t accepted = view.causes.size();
+  return std::to_string(names.size()) + " effects of the catalogue were tried; " +
+         (accepted == 0 ? "none was"
+                        : std::to_string(accepted) + (accepted == 1 ? " was" : " were")) +
+         " accepted.";
 }
 
 std::optional<Section> draw(const DiagnosisView& view) {

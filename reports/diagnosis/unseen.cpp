@@ -7,9 +7,11 @@ namespace flexspline::reports {
 namespace {
 
 std::string sentence_of(const DiagnosisView& view) {
-  if (!std::isfinite(view.after)) {
-    return "The misfit on recordings kept back is " + digits(view.before, 3) + " " +
-           view.rmse_unit + "; nothing was added that could change it.";
+  if (!std::isfinite(view.after) || view.causes.empty()) {
+    return "The baseline's misfit on recordings kept back is " + digits(view.before, 3) + " " +
+           view.rmse_unit + ", " + digits(view.before / view.noise_floor, 3) +
+           " times the noise floor of " + digits(view.noise_floor, 3) + " " + view.rmse_unit +
+           ". Nothing was added that could change it.";
   }
   std::string text = "On recordings that no fit had seen, the misfit goes from " +
                      digits(view.before, 3) + " to " + digits(view.after, 3) + " " +
@@ -39,7 +41,9 @@ Table holdout_table(const DiagnosisView& view) {
     table.rows.push_back({name, rmse, rmse / view.noise_floor, ratio, lower, upper});
   };
   add("baseline", view.before, 1.0, kAbsent, kAbsent);
-  add("with what was left out", view.after, view.ratio, view.ratio_lower, view.ratio_upper);
+  if (!view.causes.empty()) {
+    add("with what was left out", view.after, view.ratio, view.ratio_lower, view.ratio_upper);
+  }
   add("noise floor", view.noise_floor, view.noise_floor / view.before, kAbsent, kAbsent);
   return without_empty_columns(std::move(table));
 }

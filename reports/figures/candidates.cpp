@@ -24,18 +24,23 @@ Figure candidates_figure(const DiagnosisView& view) {
   figure.kind = "scatter";
   figure.title = "What each candidate would explain";
   figure.caption =
-      "Share of the misfit beyond the noise that a candidate removes, by round of the search. The "
-      "best one of a round is taken up only if it also holds on recordings that it has not seen; "
-      "those close to it are what it could be confused with.";
-  figure.alt = "Share of misfit removed by every candidate, a symbol a round.";
+      view.adequate()
+          ? "Change of the information criterion (BIC) by each candidate. Left of zero it would be "
+            "worth its parameters; there is none that is and that holds on recordings not seen."
+          : "Share of the misfit beyond the noise that a candidate removes, by round of the "
+            "search. "
+            "The best one of a round is taken up only if it also holds on recordings that it has "
+            "not seen; those close to it are what it could be confused with.";
+  figure.alt = "What every candidate would explain, a symbol a round.";
   Panel panel;
-  panel.x.label = "misfit removed / %";
+  panel.x.label = view.adequate() ? "delta BIC" : "misfit removed / %";
   panel.y.label = "candidate";
   std::map<int, Series> rounds;
   for (const ShownCandidate& one : view.tried) {
-    if (!std::isfinite(one.misfit_removed)) continue;
+    const double worth = view.adequate() ? one.delta_bic : 100.0 * one.misfit_removed;
+    if (!std::isfinite(worth)) continue;
     Series& series = rounds[one.round];
-    series.x.push_back(100.0 * one.misfit_removed);
+    series.x.push_back(worth);
     series.y.push_back(row_of(panel.y.categories, words(one.effect)));
   }
   for (auto& [round, series] : rounds) {

@@ -10,7 +10,7 @@ namespace flexspline::reports {
 Figure mismatch_figure(const DiagnosisView& view);
 
 /// Measured less modelled, of the frames of mismatch_figure.
-Figure remainder_figure();
+Figure remainder_figure(const DiagnosisView& view);
 
 /// The remainder over the velocity, where that is what orders it; without frames otherwise.
 Figure over_velocity_figure(const DiagnosisView& view);

@@ -120,21 +120,28 @@ std::size_t points_of(const DiagnosisView& view) {
   return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 80, 1200);
 }
 
+std::string caption_of(const DiagnosisView& view) {
+  std::string text = "The wide line is measured, the solid one the baseline. ";
+  text += view.mismatch.empty()
+              ? "It stays within the noise; pick another recording to see that it does so "
+                "everywhere."
+              : "Yellow marks where they part most, on the loop and along time.";
+  if (!view.causes.empty()) {
+    text +=
+        " Look whether the dashed line, with what was left out, stays on the measured one "
+        "there.";
+  }
+  return text + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
+}
+
 }  // namespace
 
 Figure mismatch_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "mismatch";
-  figure.title = "Measured, and modelled without and with what was left out";
-  figure.caption =
-      view.mismatch.empty()
-          ? "The wide line is measured, the thin one the baseline: it stays within the noise. Pick "
-            "another recording to see that it does so everywhere. Ctrl and the wheel zoom, or two "
-            "fingers; a click in the legend hides a line."
-          : "The wide line is measured; yellow marks where the baseline leaves it, on the loop and "
-            "along time. Look whether the dashed line, with what was left out, stays on the "
-            "measured one there. Ctrl and the wheel zoom, or two fingers; a click in the legend "
-            "hides a line.";
+  figure.title = view.causes.empty() ? "Measured, and modelled by the baseline"
+                                     : "Measured, and modelled without and with what was left out";
+  figure.caption = caption_of(view);
   figure.alt = "Effort over motion and over time: measured, baseline, and model with the causes.";
   figure.pickers = pickers_of(view);
   const std::size_t points = points_of(view);
@@ -145,14 +152,15 @@ Figure mismatch_figure(const DiagnosisView& view) {
   return figure;
 }
 
-Figure remainder_figure() {
+Figure remainder_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "remainder";
-  figure.title = "Its signature: measured less modelled";
+  figure.title = view.adequate() ? "What is left: measured less modelled"
+                                 : "Its signature: measured less modelled";
   figure.caption =
-      "Noise has no shape. Look for one in the solid line, over the motion or at certain times, "
-      "and "
-      "whether the dashed line has lost it.";
+      "Noise has no shape. Look for one in the solid line, over the motion or at "
+      "certain times";
+  figure.caption += view.causes.empty() ? "." : ", and whether the dashed line has lost it.";
   figure.alt = "Measured less modelled effort over motion and over time, before and after.";
   figure.derived_from = "mismatch";
   figure.y_label = "measured less modelled";

@@ -113,18 +113,22 @@ TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
   change(folder, "diagnosis.json", [](ordered_json& json) {
     json["verdict"] = "adequate";
     json["says"] = "";
-    for (const char* list : {"mismatch", "causes", "confusable", "tried", "moved", "notes"}) {
+    for (const char* list : {"mismatch", "causes", "confusable", "moved", "notes"}) {
       json[list] = ordered_json::array();
     }
     json["next_experiment"] = nullptr;
-    for (const char* key : {"rmse_after_nm", "ratio"}) json["holdout"][key] = nullptr;
+    json["holdout"]["rmse_after_nm"] = json["holdout"]["rmse_before_nm"];
     for (ordered_json& one : json["series"]) one["after"] = one["before"];
   });
   ASSERT_TRUE(write_report(folder.path()));
   EXPECT_EQ(section_ids(folder),
             (std::vector<std::string>{"verdict", "differs-section", "left-out-section",
-                                      "unseen-section", "provenance-section"}));
-  EXPECT_TRUE(contains(folder.text("index.html"), "Adequate: the baseline explains"));
+                                      "tried-section", "unseen-section", "provenance-section"}));
+  const std::string markup = markup_of(folder.text("index.html"));
+  EXPECT_TRUE(contains(markup, "Adequate: the baseline explains"));
+  EXPECT_TRUE(contains(markup, "none was accepted"));
+  EXPECT_TRUE(contains(markup, "Nothing was added that could change it."));
+  EXPECT_FALSE(contains(markup, "dashed line") || contains(markup, "misfit removed"));
   EXPECT_EQ(figure_of(folder, "mismatch")["frames"][0]["panels"][0]["series"].size(), 2u);
 }
 
