@@ -56,6 +56,23 @@ double fastest(const Frame& frame) {
   return (acceleration.abs() * frame.usable).maxCoeff() / (speed.abs() * frame.usable).maxCoeff();
 }
 
+ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
+  ArrayXd shifted(frame.rows());
+  for (const Segment& s : frame.segments) {
+    const Index last = s.first + s.count - 1;
+    Index k = s.first;
+    for (Index r = s.first; r <= last; ++r) {
+      const double t = frame.time[r] + delay;
+      while (k + 1 < last && frame.time[k + 1] < t) ++k;
+      while (k > s.first && frame.time[k] > t) --k;
+      const double share =
+          std::clamp((t - frame.time[k]) / (frame.time[k + 1] - frame.time[k]), 0.0, 1.0);
+      shifted[r] = signal[k] + share * (signal[k + 1] - signal[k]);
+    }
+  }
+  return shifted;
+}
+
 ArrayXd cold_share(const Frame& frame, double time_constant) {
   return (-frame.clock / time_constant).exp();
 }

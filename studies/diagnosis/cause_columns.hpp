@@ -26,6 +26,9 @@ std::vector<double> geometric(double first, double last, int count);
 /// Largest angular frequency of the motion: its largest acceleration over its largest speed, 1/s.
 double fastest(const Frame& frame);
 
+/// A smooth signal a delay later, in every recording: linear between rows, held beyond the ends.
+Eigen::ArrayXd later(const Frame& frame, const Eigen::ArrayXd& signal, double delay);
+
 /// Fraction of what warms up that is left, exp(-clock/T).
 Eigen::ArrayXd cold_share(const Frame& frame, double time_constant);
 

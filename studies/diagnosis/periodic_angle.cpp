@@ -13,8 +13,8 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kStandsOut = 10.0;  // amplitude over its standard error
-constexpr Index kHalfWindow = 50;    // samples
+constexpr double kStandsOut = 4.0;  // amplitude over its standard error
+constexpr Index kHalfWindow = 50;   // samples
 
 double ratio_of(const RecordingSet& set) {
   const auto found = set.constants.find("gear_ratio");

@@ -22,7 +22,7 @@ struct PeriodicAngle {
 };
 
 /// Orders 1, 2, 2 (1 + 1/N) and 4 by regression of the raw torsion on the turns, both about running
-/// parabolas of 101 samples; those that stand out of their error tenfold. Empty but on the free
+/// parabolas of 101 samples; those of more than four standard errors. Empty but on the free
 /// rig.
 PeriodicAngle periodic_angle(const RecordingSet& set);
 

@@ -13,6 +13,7 @@ namespace {
 using Eigen::ArrayXd;
 
 constexpr int kBaselineSteps = 15;
+constexpr int kFirstSteps = 3;
 constexpr int kRefineSteps = 12;
 constexpr int kNoisePasses = 3;          // the noise is measured on a fit that it weights
 constexpr double kWorthRefining = 0.03;  // of the best first gain
@@ -171,7 +172,9 @@ FirstLook first_look(const Frame& frame, const Findings& findings, const CauseRo
   const double before = chi_square(findings, findings.fit, frame);
   for (auto& shape : starts(form, frame)) {
     ++look.tried;
-    const auto fit = extended(frame, findings, {&row, &form, shape}, 0);
+    // A change of the motion starts from next to nothing: a few steps show what it is worth.
+    const int steps = form.start != nullptr ? kFirstSteps : 0;
+    const auto fit = extended(frame, findings, {&row, &form, shape}, steps);
     if (!fit) continue;
     const double gain = before - chi_square(findings, *fit, frame);
     if (gain > look.gain || look.shape.empty()) {

@@ -78,15 +78,29 @@ double chi_square_rise(const Frame& frame, const Findings& findings, const Model
   return rise;
 }
 
+bool stands_for(const Accepted& a, const Accepted& b) {
+  return std::ranges::any_of(a.rivals,
+                             [&](const Trial& t) { return t.cause.row == b.trial.cause.row; });
+}
+
+bool share_equation(const Accepted& a, const Accepted& b) {
+  return std::ranges::any_of(a.trial.cause.form->at, [&](Equation e) {
+    return std::ranges::count(b.trial.cause.form->at, e) > 0;
+  });
+}
+
 // Of two causes in one equation, what a small one explains may be no more than the form of the
 // large one.
 bool in_the_shadow(const Selection& s, std::size_t i, const std::vector<double>& loss,
                    const Limits& limits) {
   for (std::size_t k = 0; k < s.accepted.size(); ++k) {
-    const bool shares_equation = std::ranges::any_of(
-        s.accepted[k].trial.cause.form->at,
-        [&](Equation e) { return std::ranges::count(s.accepted[i].trial.cause.form->at, e) > 0; });
-    if (k != i && shares_equation && loss[i] < limits.shadow * loss[k]) return true;
+    const Accepted& small = s.accepted[i];
+    const Accepted& large = s.accepted[k];
+    if (k == i || !share_equation(small, large)) continue;
+    const bool twins = stands_for(small, large) || stands_for(large, small);
+    const double limit = twins ? limits.twin_shadow : limits.shadow;
+    const double worth = twins ? std::max(small.first_gain, large.first_gain) : loss[k];
+    if (loss[i] < limit * worth) return true;
   }
   return false;
 }
@@ -116,7 +130,9 @@ Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selecti
 }
 
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
-  Accepted accepted{std::move(trials[best]), {}, {}};
+  Accepted accepted;
+  accepted.trial = std::move(trials[best]);
+  accepted.first_gain = accepted.trial.gain;
   accepted.material = accepted.trial.size >= limits.size;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr) continue;

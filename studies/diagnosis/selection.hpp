@@ -19,13 +19,14 @@ struct Limits {
   double remainder_share = 0.02;  ///< and the share of the residual it has to order
   double shadow = 0.01;           ///< gain over that of a larger cause of the same equation
   double explained = 0.75;        ///< share of the misfit that the causes have to remove
-  double misfit = 1.25;           ///< mean square over noise that counts as explained
+  double misfit = 1.5;            ///< mean square over noise that counts as explained
   int rounds = 7;
 };
 
 /// A cause that was accepted, with the others that did nearly as well.
 struct Accepted {
   Trial trial;
+  double first_gain = 0.0;    ///< when it was accepted; trial.gain is what it is worth at the end
   std::vector<Trial> rivals;  ///< alternatives, best first
   std::vector<Trial> field;   ///< every other cause refined in that round
   bool material = true;       ///< else it is in the model, but too small to be named

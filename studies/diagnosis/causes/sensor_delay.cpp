@@ -20,7 +20,10 @@ void motion_of_then(Frame& f, Values shape) {
   f.torsion_rate -= d * f.torsion_acceleration;
 }
 
-void torque_of_now(Frame& f, Values shape) { f.torque += shape[0] * f.torque_rate; }
+// The smooth part as it is d later, with the noise of the sample itself.
+void torque_of_now(Frame& f, Values shape) {
+  f.torque += later(f, f.smooth_torque, shape[0]) - f.smooth_torque;
+}
 
 void motor_torque_late(Frame& f, Values shape) { f.motor_torque += shape[0] * f.motor_torque_rate; }
 
