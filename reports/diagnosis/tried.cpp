@@ -6,11 +6,13 @@
 namespace flexspline::reports {
 namespace {
 
-/// By round, the candidate that removes most first.
-std::vector<ShownCandidate> ranked(std::vector<ShownCandidate> tried) {
-  std::stable_sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
+/// By round, the candidate that removes most first; where there is nothing to remove, as they
+/// stand.
+std::vector<ShownCandidate> ranked(const DiagnosisView& view) {
+  std::vector<ShownCandidate> tried = view.tried;
+  std::stable_sort(tried.begin(), tried.end(), [&](const auto& a, const auto& b) {
     if (a.round != b.round) return a.round < b.round;
-    return a.misfit_removed > b.misfit_removed;
+    return !view.adequate() && a.misfit_removed > b.misfit_removed;
   });
   return tried;
 }
@@ -33,7 +35,7 @@ Table tried_table(const DiagnosisView& view) {
        {"hold-out ratio", "", 3},
        {"outcome", "", 3}},
       {}};
-  for (const ShownCandidate& one : ranked(view.tried)) {
+  for (const ShownCandidate& one : ranked(view)) {
     table.rows.push_back({std::to_string(one.round), words(one.effect), 100.0 * one.misfit_removed,
                           one.delta_bic, one.holdout_ratio, one.outcome});
   }

@@ -16,6 +16,19 @@ double row_of(std::vector<std::string>& categories, const std::string& name) {
   return row;
 }
 
+/// Zero is what the criterion is compared with.
+void show_zero(Panel& panel) {
+  double lower = 0.0, upper = 0.0;
+  for (const Series& series : panel.series) {
+    for (const double x : series.x) {
+      lower = std::min(lower, x);
+      upper = std::max(upper, x);
+    }
+  }
+  panel.x.range = widened(lower, upper, 0.05);
+  panel.marks.push_back({0.0, "no change"});
+}
+
 }  // namespace
 
 Figure candidates_figure(const DiagnosisView& view) {
@@ -49,6 +62,7 @@ Figure candidates_figure(const DiagnosisView& view) {
     series.role = {"estimator", std::max(0, round - 1)};
     panel.series.push_back(std::move(series));
   }
+  if (view.adequate()) show_zero(panel);
   if (!panel.series.empty()) figure.frames.push_back({{}, {std::move(panel)}});
   return figure;
 }
