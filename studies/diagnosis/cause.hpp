@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "diagnosis/counterpart.hpp"
 #include "diagnosis/frame.hpp"
 
 namespace flexspline::studies {
@@ -45,6 +46,9 @@ struct CauseForm {
   std::vector<double> (*start)(const Frame&) = nullptr;
   bool nonnegative = false;   ///< a_k >= 0
   bool travels_only = false;  ///< on a specimen: only where an angle travels
+  /// What it is in a model file, by the catalogue of effects.
+  Counterpart (*counterpart)(const FittedCause&) = nullptr;
+  std::string_view no_counterpart = {};  ///< why there is none
 };
 
 /// A row of the catalogue of causes: an id of flexspline-diagnosis/1 and the ways it may act.

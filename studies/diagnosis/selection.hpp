@@ -17,7 +17,8 @@ struct Limits {
   double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
   double remainder = 60.0;        ///< statistic of a coordinate that says something is left
   double remainder_share = 0.02;  ///< and the share of the residual it has to order
-  double shadow = 0.01;           ///< gain over that of a larger cause of the same equation
+  double shadow = 0.03;           ///< gain over that of a larger cause of the same equation
+  double twin_shadow = 0.1;       ///< the same over that of one that could stand for it
   double explained = 0.75;        ///< share of the misfit that the causes have to remove
   double misfit = 1.5;            ///< mean square over noise that counts as explained
   int rounds = 7;
