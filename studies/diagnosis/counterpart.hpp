@@ -29,12 +29,18 @@ struct FittedCause {
 
 /// What a cause is in a model file.
 struct Counterpart {
-  std::vector<EffectSpec> effects;
-  double law_factor = 1.0;        ///< on f and g^-1, which had taken a gain up
-  double side_difference = 0.0;   ///< g^-1 is 1 + this forward and 1 - this backward
-  std::function<double(double)> spring_sees;  ///< of the torsion, where f alone sees less of it
-  std::string caveat;             ///< in what the model differs from what was fitted
+  std::vector<EffectSpec> effects = {};
+  double law_factor = 1.0;       ///< on f and g^-1, which had taken a gain up
+  double side_difference = 0.0;  ///< g^-1 is 1 + this forward and 1 - this backward
+  /// Of the torsion, where f alone sees less of it.
+  std::function<double(double)> spring_sees = {};
+  std::string caveat = {};  ///< in what the model differs from what was fitted
 };
+
+/// Said of what goes by the clock of a session.
+inline constexpr const char* kSessionClock =
+    "its time is that of the session, from the first recording's start on; simulate counts from "
+    "each recording's own";
 
 /// (amplitude, phase) of s sin(x) + c cos(x) = amplitude sin(x + phase), by those names; with the
 /// order between them where there is one.

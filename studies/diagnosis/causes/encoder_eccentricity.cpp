@@ -37,6 +37,17 @@ std::vector<double> motor_start(const Frame& f) {
 
 std::vector<double> start(const Frame& f) { return periodic_torsion(f, f.load_angle, {1.0}); }
 
+// The angle is less than measured by what is added to the torsion.
+Counterpart at_the_load(const FittedCause& c) {
+  return {.effects = {{"encoder_eccentricity", amplitude_and_phase(c.shape[0], c.shape[1])}}};
+}
+
+Counterpart at_the_motor(const FittedCause& c) {
+  const double turns = -c.frame.ratio;
+  return {.effects = {{"motor_encoder_eccentricity",
+                       amplitude_and_phase(turns * c.shape[0], turns * c.shape[1])}}};
+}
+
 }  // namespace
 
 CauseRow describe_encoder_eccentricity() {
@@ -47,13 +58,15 @@ CauseRow describe_encoder_eccentricity() {
                      .at = {Equation::torsion, Equation::load},
                      .shapes = amplitudes,
                      .transform = runout,
-                     .start = start},
+                     .start = start,
+                     .counterpart = at_the_load},
                     {.equation = "theta_m,measured = theta_m + N e sin(theta_m + p)",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion},
                      .shapes = amplitudes,
                      .transform = motor_runout,
-                     .start = motor_start}}};
+                     .start = motor_start,
+                     .counterpart = at_the_motor}}};
 }
 
 }  // namespace flexspline::studies

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "diagnosis/cause_columns.hpp"
 
 namespace flexspline::studies {
@@ -10,6 +12,12 @@ Columns pendulum(Equation, const Frame& f, const Reference&, Values) {
   return sine_pair(f.load_angle, 1.0);
 }
 
+Counterpart as_moment(const FittedCause& c) {
+  auto [amplitude, phase] = std::pair(std::hypot(c.coefficients[0], c.coefficients[1]),
+                                      std::atan2(c.coefficients[1], c.coefficients[0]));
+  return {.effects = {{"gravity_load", {{"moment", amplitude}, {"phase", phase}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_gravity_load() {
@@ -18,7 +26,8 @@ CauseRow describe_gravity_load() {
           .forms = {{.equation = "tau_L += m g l sin(theta_l + a)",
                      .rigs = {Rig::free},
                      .at = {Equation::load},
-                     .columns = pendulum}}};
+                     .columns = pendulum,
+                     .counterpart = as_moment}}};
 }
 
 }  // namespace flexspline::studies

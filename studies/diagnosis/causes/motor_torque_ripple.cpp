@@ -18,6 +18,24 @@ Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values 
   return sine_pair(f.motor_angle, shape[0], f.smooth_motor_torque);
 }
 
+Counterpart cogging(const FittedCause& c) {
+  return {.effects = {{"motor_torque_ripple",
+                       {{"order", c.shape[0]},
+                        {"cogging_sine", c.coefficients[0]},
+                        {"cogging_cosine", c.coefficients[1]},
+                        {"ripple_sine", 0.0},
+                        {"ripple_cosine", 0.0}}}}};
+}
+
+Counterpart under_current(const FittedCause& c) {
+  return {.effects = {{"motor_torque_ripple",
+                       {{"order", c.shape[0]},
+                        {"cogging_sine", 0.0},
+                        {"cogging_cosine", 0.0},
+                        {"ripple_sine", c.coefficients[0]},
+                        {"ripple_cosine", c.coefficients[1]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_motor_torque_ripple() {
@@ -27,12 +45,14 @@ CauseRow describe_motor_torque_ripple() {
                      .rigs = {Rig::free},
                      .at = {Equation::motor},
                      .shapes = turns,
-                     .columns = ripple},
+                     .columns = ripple,
+                     .counterpart = cogging},
                     {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m)",
                      .rigs = {Rig::free},
                      .at = {Equation::motor},
                      .shapes = turns,
-                     .columns = ripple_under_current}}};
+                     .columns = ripple_under_current,
+                     .counterpart = under_current}}};
 }
 
 }  // namespace flexspline::studies

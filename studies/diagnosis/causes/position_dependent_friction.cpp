@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "diagnosis/cause_columns.hpp"
 
 namespace flexspline::studies {
@@ -29,6 +31,46 @@ Columns along_travel(Equation, const Frame& f, const Reference& known, Values) {
   return {u.cos() * sign, (2.0 * u).cos() * sign, (3.0 * u).cos() * sign};
 }
 
+void add_wave(EffectSpec& effect, double order, double sine, double cosine, double width) {
+  for (const auto& [name, value] : {std::pair("order", order), std::pair("sine", sine),
+                                    std::pair("cosine", cosine), std::pair("smoothing", width)}) {
+    effect.parameters.emplace_back(name, value);
+  }
+}
+
+// Sine and cosine by turn, over an angle that is that many times the effect's own.
+void add_turns(EffectSpec& effect, const Eigen::VectorXd& a, double ratio, const SignPart& sign) {
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    add_wave(effect, ratio * (static_cast<double>(k) + 1.0), sign.share * a[2 * k],
+             sign.share * a[2 * k + 1], sign.width);
+  }
+}
+
+Counterpart motor_waves(const FittedCause& c) {
+  EffectSpec effect{"position_dependent_friction", {}};
+  for (const SignPart& part : c.motor_sign) add_turns(effect, c.coefficients, 1.0, part);
+  return {.effects = {std::move(effect)}};
+}
+
+Counterpart joint_waves(const FittedCause& c) {
+  EffectSpec effect{"position_dependent_friction", {}};
+  add_turns(effect, c.coefficients, c.frame.ratio, {1.0, c.torsion_coulomb_rate});
+  return {.effects = {std::move(effect)}};
+}
+
+Counterpart travel_waves(const FittedCause& c) {
+  EffectSpec effect{"position_dependent_friction", {}};
+  const double low = c.frame.torsion.minCoeff();
+  const double half_turn = std::numbers::pi / (c.frame.torsion.maxCoeff() - low);
+  for (Eigen::Index k = 0; k < c.coefficients.size(); ++k) {
+    const double order = half_turn * (static_cast<double>(k) + 1.0);
+    const double a = c.coefficients[k];
+    add_wave(effect, order, a * std::sin(order * low), a * std::cos(order * low),
+             c.torsion_coulomb_rate);
+  }
+  return {.effects = {std::move(effect)}};
+}
+
 }  // namespace
 
 CauseRow describe_position_dependent_friction() {
@@ -38,17 +80,20 @@ CauseRow describe_position_dependent_friction() {
               {.equation = "tau_f += sum_k (a_k sin k theta_m + b_k cos k theta_m) sgn w, k = 1, 2",
                .rigs = {Rig::free},
                .at = {Equation::motor},
-               .columns = at_motor},
+               .columns = at_motor,
+               .counterpart = motor_waves},
               {.equation = "tau += sum_k (a_k sin k N q + b_k cos k N q) sgn q', k = 1, 2",
                .rigs = {Rig::specimen},
                .at = {Equation::torsion},
                .columns = at_joint,
-               .travels_only = true},
+               .travels_only = true,
+               .counterpart = joint_waves},
               {.equation = "tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel",
                .rigs = {Rig::specimen},
                .at = {Equation::torsion},
                .columns = along_travel,
-               .travels_only = true}}};
+               .travels_only = true,
+               .counterpart = travel_waves}}};
 }
 
 }  // namespace flexspline::studies

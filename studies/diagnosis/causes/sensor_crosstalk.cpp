@@ -12,6 +12,11 @@ Columns twice_a_turn(Equation equation, const Frame& f, const Reference&, Values
   return of_torque_signal(equation, f, std::move(terms));
 }
 
+Counterpart with_its_zero(const FittedCause& c) {
+  return {.effects = {{"sensor_crosstalk", harmonic(2.0, c.coefficients[0], c.coefficients[1])},
+                      {"torque_sensor_offset", {{"offset", c.coefficients[2]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_sensor_crosstalk() {
@@ -20,7 +25,8 @@ CauseRow describe_sensor_crosstalk() {
           .forms = {{.equation = "tau_measured = tau + a (sin(2 theta_m + p) - o)",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
-                     .columns = twice_a_turn}}};
+                     .columns = twice_a_turn,
+                     .counterpart = with_its_zero}}};
 }
 
 }  // namespace flexspline::studies

@@ -20,6 +20,10 @@ void in_series(Frame& f, Values shape) {
   f.torsion_rate -= shape[0] * f.torque_rate;
 }
 
+Counterpart as_compliance(const FittedCause& c) {
+  return {.effects = {{"series_compliance", {{"compliance", c.shape[0]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_series_compliance() {
@@ -29,7 +33,8 @@ CauseRow describe_series_compliance() {
                      .rigs = kDrives,
                      .at = {Equation::torsion},
                      .shapes = compliance,
-                     .transform = in_series}}};
+                     .transform = in_series,
+                     .counterpart = as_compliance}}};
 }
 
 }  // namespace flexspline::studies

@@ -18,6 +18,10 @@ Columns stiffening(Equation, const Frame& f, const Reference&, Values shape) {
   return {f.torsion - shape[0] * (f.torsion / shape[0]).tanh()};
 }
 
+Counterpart as_windup(const FittedCause& c) {
+  return {.effects = {{"soft_windup", {{"stiffening", c.coefficients[0]}, {"knee", c.shape[0]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_soft_windup() {
@@ -27,7 +31,8 @@ CauseRow describe_soft_windup() {
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
                      .shapes = knee,
-                     .columns = stiffening}}};
+                     .columns = stiffening,
+                     .counterpart = as_windup}}};
 }
 
 }  // namespace flexspline::studies

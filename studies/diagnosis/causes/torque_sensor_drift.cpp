@@ -22,6 +22,21 @@ Columns settles(Equation equation, const Frame& f, const Reference&, Values shap
   return of_torque_signal(equation, f, {1.0 - cold_share(f, shape[0])});
 }
 
+Counterpart as_rate(const FittedCause& c) {
+  return {.effects = {{"torque_sensor_drift",
+                       {{"rate", c.coefficients[0] / c.frame.session},
+                        {"settling", 0.0},
+                        {"time_constant", c.frame.session}}}},
+          .caveat = kSessionClock};
+}
+
+Counterpart as_settling(const FittedCause& c) {
+  return {.effects =
+              {{"torque_sensor_drift",
+                {{"rate", 0.0}, {"settling", c.coefficients[0]}, {"time_constant", c.shape[0]}}}},
+          .caveat = kSessionClock};
+}
+
 }  // namespace
 
 CauseRow describe_torque_sensor_drift() {
@@ -31,12 +46,14 @@ CauseRow describe_torque_sensor_drift() {
           .forms = {{.equation = "tau_measured = tau + r t, t of the session",
                      .rigs = kAnyRig,
                      .at = at,
-                     .columns = steady},
+                     .columns = steady,
+                     .counterpart = as_rate},
                     {.equation = "tau_measured = tau + a (1 - exp(-t/T)), t of the session",
                      .rigs = kAnyRig,
                      .at = at,
                      .shapes = settling,
-                     .columns = settles}}};
+                     .columns = settles,
+                     .counterpart = as_settling}}};
 }
 
 }  // namespace flexspline::studies

@@ -12,6 +12,13 @@ Columns gain(Equation equation, const Frame& f, const Reference&, Values) {
   return {-f.torque / f.ratio};
 }
 
+// f and g^-1 were fitted to the torque that was read, larger by the gain.
+Counterpart as_gain(const FittedCause& c) {
+  const double error = c.coefficients[0];
+  return {.effects = {{"torque_sensor_gain", {{"error", error}}}},
+          .law_factor = 1.0 / (1.0 + error)};
+}
+
 }  // namespace
 
 CauseRow describe_torque_sensor_gain() {
@@ -20,7 +27,8 @@ CauseRow describe_torque_sensor_gain() {
           .forms = {{.equation = "tau_measured = (1 + e) tau",
                      .rigs = kDrives,
                      .at = {Equation::load, Equation::motor},
-                     .columns = gain}}};
+                     .columns = gain,
+                     .counterpart = as_gain}}};
 }
 
 }  // namespace flexspline::studies

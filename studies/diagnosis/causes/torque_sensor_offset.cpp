@@ -10,6 +10,10 @@ Columns constant(Equation equation, const Frame& f, const Reference&, Values) {
   return of_torque_signal(equation, f, {ArrayXd::Ones(f.rows())});
 }
 
+Counterpart as_offset(const FittedCause& c) {
+  return {.effects = {{"torque_sensor_offset", {{"offset", c.coefficients[0]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_torque_sensor_offset() {
@@ -18,7 +22,8 @@ CauseRow describe_torque_sensor_offset() {
           .forms = {{.equation = "tau_measured = tau + o",
                      .rigs = kDrives,
                      .at = {Equation::torsion, Equation::load, Equation::motor},
-                     .columns = constant}}};
+                     .columns = constant,
+                     .counterpart = as_offset}}};
 }
 
 }  // namespace flexspline::studies

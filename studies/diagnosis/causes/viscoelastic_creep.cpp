@@ -25,12 +25,29 @@ ArrayXd branch(const Frame& f, double relaxation) {
   return column;
 }
 
+std::vector<double> relaxations_of(const Frame& f) {
+  return geometric(4.0 * f.interval, f.duration, kBranches);
+}
+
 Columns branches(Equation, const Frame& f, const Reference&, Values) {
   Columns columns;
-  for (double relaxation : geometric(4.0 * f.interval, f.duration, kBranches)) {
+  for (double relaxation : relaxations_of(f)) {
     columns.push_back(branch(f, relaxation));
   }
   return columns;
+}
+
+Counterpart as_branches(const FittedCause& c) {
+  EffectSpec effect{"viscoelastic_creep", {}};
+  const auto relaxations = relaxations_of(c.frame);
+  for (std::size_t k = 0; k < relaxations.size(); ++k) {
+    const double stiffness = c.coefficients[static_cast<Eigen::Index>(k)];
+    if (!(stiffness > 0.0)) continue;
+    effect.parameters.emplace_back("stiffness", stiffness);
+    effect.parameters.emplace_back("time_constant", relaxations[k]);
+  }
+  if (effect.parameters.empty()) return {};
+  return {.effects = {std::move(effect)}};
 }
 
 }  // namespace
@@ -42,7 +59,8 @@ CauseRow describe_viscoelastic_creep() {
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
                      .columns = branches,
-                     .nonnegative = true}}};
+                     .nonnegative = true,
+                     .counterpart = as_branches}}};
 }
 
 }  // namespace flexspline::studies
