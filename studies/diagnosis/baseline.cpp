@@ -102,12 +102,18 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
 // Dry friction rises and saturates in its own way: a mixture of tanh of several widths.
 BaselineColumns motor_columns(const Frame& frame) {
   const Index n = kDryWidths;
-  BaselineColumns c{MatrixXd(frame.rows(), 1 + n), Eigen::VectorXd::Zero(1 + n), 1, n};
+  const Index load = frame.rig == Rig::servo ? 2 : 0;
+  BaselineColumns c{MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1,
+                    n};
   c.columns.col(0) = frame.motor_speed;
   for (Index k = 0; k < n; ++k) {
     const double width = frame.speed_range * kNarrowest *
                          std::pow(kWidest / kNarrowest, static_cast<double>(k) / (n - 1.0));
     c.columns.col(1 + k) = (frame.motor_speed / width).tanh();
+  }
+  if (load > 0) {
+    c.columns.col(1 + n) = frame.gravity;
+    c.columns.col(2 + n) = frame.load_acceleration;
   }
   return c;
 }
@@ -128,6 +134,7 @@ ArrayXd target_of(const Frame& frame, Equation equation) {
     case Equation::motor:
       break;
   }
+  if (frame.rig == Rig::servo) return frame.motor_torque;
   return frame.motor_torque - frame.motor_inertia * frame.motor_acceleration -
          frame.torque / frame.ratio;
 }

@@ -17,7 +17,7 @@ struct BaselineColumns {
 };
 
 /// What the equation's own output is, measured: tau, tau - J2 theta_l'', tau_m - J1 theta_m'' -
-/// tau/N.
+/// tau/N; on a servo what drives it.
 Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
 
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,

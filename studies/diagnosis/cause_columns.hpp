@@ -5,6 +5,7 @@
 namespace flexspline::studies {
 
 inline const std::vector<Rig> kDrives = {Rig::locked, Rig::free};
+inline const std::vector<Rig> kMotors = {Rig::locked, Rig::free, Rig::servo};
 inline const std::vector<Rig> kAnyRig = {Rig::locked, Rig::free, Rig::specimen};
 
 /// sin(k x) and cos(k x), each times a factor.

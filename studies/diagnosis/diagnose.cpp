@@ -6,6 +6,7 @@
 
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/prove.hpp"
+#include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -52,8 +53,12 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.baseline_rmse_train = proof->rmse_train_before;
   d.baseline_rmse_holdout = proof->holdout.rmse_before;
   const Equation shown = equation_to_prove(*frame, *selection);
-  d.noise_std = weighted_level(*frame, selection->final.noise[index_of(shown)]);
+  d.noise_std = weighted_level(*frame, selection->final.noise[index_of(shown)]) *
+                (shown == Equation::motor ? frame->ratio : 1.0);
   d.verdict = verdict_of(*selection);
+  auto specification = specify(*frame, selection->final.fit.model);
+  d.model = std::move(specification.model);
+  d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
   d.holdout = proof->holdout;
   d.causes = spelled_causes(*frame, *selection, *proof);
   d.mismatch = spelled_mismatch(*frame, *selection, limits);

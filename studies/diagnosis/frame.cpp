@@ -17,6 +17,7 @@ using Series = std::vector<double>;
 
 constexpr double kRippleError = 0.02;   // of the acceleration that follows from a periodic angle
 constexpr double kRippleLimit = 0.002;  // that error's torque over the largest motor torque
+constexpr double kGravity = 9.80665;    // m/s2
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends
 
 double constant(const RecordingSet& set, const std::string& key, double fallback) {
@@ -151,8 +152,11 @@ class FrameMaker {
 
   void mark_usable(const Recording& recording, Index count, Index stride) {
     const Series* valid = recording.find(Quantity::valid);
+    const Series* enabled = recording.find(Quantity::drive_enabled);
     for (Index i = 0; i < count; ++i) {
-      const bool good = valid == nullptr || (*valid)[static_cast<std::size_t>(i * stride)] > 0.5;
+      const auto k = static_cast<std::size_t>(i * stride);
+      const bool good =
+          (valid == nullptr || (*valid)[k] > 0.5) && (enabled == nullptr || (*enabled)[k] > 0.5);
       frame_.usable[at_ + i] = good && i >= kEndRows && i + kEndRows < count ? 1.0 : 0.0;
     }
   }
@@ -167,6 +171,13 @@ class FrameMaker {
       f.load_angle = f.torsion, f.load_speed = f.torsion_rate;
       f.load_acceleration = f.torsion_acceleration;
       return;
+    }
+    if (f.rig == Rig::servo) {
+      const double mass = constant(set_, "load_mass_kg", 1.0);
+      const double arm = constant(set_, "arm_length_m", 1.0);
+      f.gravity = mass * arm * kGravity * f.load_angle.sin();
+      f.torque = f.gravity + mass * arm * arm * f.load_acceleration;
+      f.smooth_torque = f.torque;
     }
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;
@@ -222,6 +233,12 @@ std::vector<Equation> equations_of(const RecordingSet& set, const Channels& c) {
   if (set.rig == Rig::free && torque && set.constants.contains("load_inertia_kgm2")) {
     list.push_back(Equation::load);
   }
+  if (set.rig == Rig::servo) {
+    if (!c.drive.motor_torque.empty() && !c.drive.load_angle.empty()) {
+      return {Equation::motor};
+    }
+    return {};
+  }
   if (set.rig != Rig::specimen && !c.drive.motor_torque.empty() && torque &&
       set.constants.contains("motor_inertia_kgm2")) {
     list.push_back(Equation::motor);
@@ -276,10 +293,10 @@ Result<Frame> make_frame(const RecordingSet& set, Index most_rows) {
     if (!channels) return tl::unexpected(in_context(channels.error(), recording->id));
     equations = equations_of(set, *channels);
     if (equations.empty()) {
-      return failure(
-          ErrorCode::bad_data,
-          fmt::format("recording {} has no torque across the transmission", recording->id),
-          "a diagnosis needs a transmitted torque, torque or force channel");
+      return failure(ErrorCode::bad_data,
+                     fmt::format("recording {} has no torque to explain", recording->id),
+                     "a diagnosis needs a transmitted torque, torque or force, or on a servo what "
+                     "drives it and the load's angle");
     }
     maker.set_travels(recording->find(Quantity::angle) != nullptr);
     maker.add(*channels, stride);

@@ -111,12 +111,25 @@ PeriodicAngle periodic_angle(const RecordingSet& set) {
   return periodic;
 }
 
+namespace {
+
+// What drives a servo as it is recorded: a torque, a current or a voltage.
+DriveSpec unit_drive(const RecordingSet& set) {
+  DriveSpec drive;
+  drive.gear_ratio = ratio_of(set);
+  drive.torque_constant = 1.0;
+  drive.resistance = 1.0;
+  return drive;
+}
+
+}  // namespace
+
 Result<DriveChannels> channels_with(const RecordingSet& set, const Recording& recording,
                                     const PeriodicAngle& periodic) {
-  if (periodic.terms.empty()) return drive_channels(set.rig, {}, recording);
+  if (periodic.terms.empty()) return drive_channels(set.rig, unit_drive(set), recording);
   Recording plain = recording;
   for (double& theta : plain.channels[Quantity::motor_angle]) theta -= periodic.value(theta);
-  auto channels = drive_channels(set.rig, {}, plain);
+  auto channels = drive_channels(set.rig, unit_drive(set), plain);
   if (!channels) return channels;
   const auto& raw = *recording.find(Quantity::motor_angle);
   for (std::size_t i = 0; i < raw.size(); ++i) {

@@ -19,17 +19,34 @@ bool marked(const Frame& frame) {
                              [](const Segment& s) { return s.split == Split::holdout; });
 }
 
+// What a law is fitted to has to reach as far as what it is judged on.
+bool reaches_furthest(const Frame& frame, const Segment& s) {
+  const auto furthest = [&](const ArrayXd& x) {
+    const ArrayXd size = x.abs() * frame.usable;
+    const double most = size.maxCoeff();
+    return most > 0.0 && size.segment(s.first, s.count).maxCoeff() >= most;
+  };
+  return furthest(frame.torsion) || furthest(frame.torsion_rate) || furthest(frame.motor_speed) ||
+         furthest(frame.torque) || s.first == 0;
+}
+
+// One in three of those that reach nowhere furthest, in the order of their fastest motion.
 std::vector<std::size_t> unmarked_choice(const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
+    if (reaches_furthest(frame, s)) continue;
     const ArrayXd& speed = frame.rig == Rig::free ? frame.load_speed : frame.torsion_rate;
     order.emplace_back(speed.segment(s.first, s.count).abs().maxCoeff(), i);
   }
   std::ranges::sort(order);
+  const std::size_t wanted = std::max<std::size_t>(1, frame.segments.size() / 3);
+  const std::size_t step = std::max<std::size_t>(1, order.size() / wanted);
   std::vector<std::size_t> chosen;
-  if (order.size() == 2) chosen.push_back(order.front().second);
-  for (std::size_t k = 1; k + 1 < order.size(); k += 3) chosen.push_back(order[k].second);
+  for (std::size_t k = step / 2; k < order.size() && chosen.size() < wanted; k += step) {
+    chosen.push_back(order[k].second);
+  }
+  if (chosen.empty() && frame.segments.size() > 1) chosen.push_back(frame.segments.size() - 1);
   return chosen;
 }
 
@@ -194,6 +211,12 @@ Result<Proof> prove(const Frame& frame, const Selection& s) {
   h.noise_floor = rows > 0.0 ? std::sqrt(variance / rows) : kNotComputed;
   const auto causes = prove_causes(frame, s, final, base, out, proof);
   if (!causes) return tl::unexpected(causes.error());
+  if (e == index_of(Equation::motor)) {
+    for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,
+                          &proof.rmse_train_after}) {
+      *value *= frame.ratio;
+    }
+  }
   return proof;
 }
 

@@ -8,16 +8,21 @@ using Values = std::span<const double>;
 
 Columns lag(Equation, const Frame& f, const Reference&, Values) { return {f.motor_torque_rate}; }
 
+Counterpart as_lag(const FittedCause& c) {
+  return {.effects = {{"current_lag", {{"time_constant", c.coefficients[0]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_current_lag() {
   return {.id = "current_lag",
           .coordinate = "lag",
           .forms = {{.equation = "T tau_m' = tau_m,recorded - tau_m",
-                     .rigs = kDrives,
+                     .rigs = kMotors,
                      .at = {Equation::motor},
                      .columns = lag,
-                     .nonnegative = true}}};
+                     .nonnegative = true,
+                     .counterpart = as_lag}}};
 }
 
 }  // namespace flexspline::studies

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "diagnosis/cause_columns.hpp"
 
 namespace flexspline::studies {
@@ -14,19 +16,45 @@ Columns across(Equation, const Frame& f, const Reference& known, Values) {
   return {known.dissipative.abs(), f.torsion_rate.abs() / f.rate_range};
 }
 
+// The square of a sign that saturates over several widths is that over the widest's only nearly.
+Counterpart motor_halves(const FittedCause& c) {
+  Counterpart counterpart;
+  if (c.motor_sign.empty()) return counterpart;
+  const auto main = std::ranges::max_element(c.motor_sign, {}, &SignPart::share);
+  counterpart.effects = {{"direction_asymmetry",
+                          {{"coulomb_difference", c.coefficients[0]},
+                           {"viscous_difference", c.coefficients[1] / c.frame.speed_range},
+                           {"smoothing", main->width}}}};
+  if (c.motor_sign.size() > 1) {
+    counterpart.caveat = "its sign saturates over one speed, the fitted one over several";
+  }
+  return counterpart;
+}
+
+Counterpart gear_halves(const FittedCause& c) {
+  return {.effects = {{"direction_asymmetry",
+                       {{"coulomb_difference", 0.0},
+                        {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
+                        {"smoothing", 1e-6 * c.frame.rate_range}}}},
+          .side_difference = c.coefficients[0],
+          .caveat = speed_caveat(c.frame)};
+}
+
 }  // namespace
 
 CauseRow describe_direction_asymmetry() {
   return {.id = "direction_asymmetry",
           .coordinate = "velocity",
           .forms = {{.equation = "tau_f += d tanh^2(w/w_e) + b |w|",
-                     .rigs = kDrives,
+                     .rigs = kMotors,
                      .at = {Equation::motor},
-                     .columns = at_motor},
+                     .columns = at_motor,
+                     .counterpart = motor_halves},
                     {.equation = "tau += d |g^-1(phi'/h)| + b |phi'|",
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
-                     .columns = across}}};
+                     .columns = across,
+                     .counterpart = gear_halves}}};
 }
 
 }  // namespace flexspline::studies

@@ -10,15 +10,20 @@ Columns constant(Equation, const Frame& f, const Reference&, Values) {
   return {ArrayXd::Ones(f.rows())};
 }
 
+Counterpart as_offset(const FittedCause& c) {
+  return {.effects = {{"motor_torque_offset", {{"offset", c.coefficients[0]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_motor_torque_offset() {
   return {.id = "motor_torque_offset",
           .coordinate = "constant",
           .forms = {{.equation = "tau_m,recorded = tau_m + o",
-                     .rigs = kDrives,
+                     .rigs = kMotors,
                      .at = {Equation::motor},
-                     .columns = constant}}};
+                     .columns = constant,
+                     .counterpart = as_offset}}};
 }
 
 }  // namespace flexspline::studies

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "diagnosis/cause_columns.hpp"
 
 namespace flexspline::studies {
@@ -31,28 +33,50 @@ Columns across(Equation, const Frame& f, const Reference&, Values shape) {
   return {power(f.torsion_rate, shape[0])};
 }
 
+Counterpart power_drag(const FittedCause& c, double fastest) {
+  return {.effects = {{"nonlinear_viscous_friction",
+                       {{"drag", c.coefficients[0] / std::pow(fastest, c.shape[0])},
+                        {"exponent", c.shape[0]},
+                        {"smoothing", 1e-6 * fastest}}}}};
+}
+
+Counterpart motor_drag(const FittedCause& c) {
+  return power_drag(c, c.frame.motor_speed.abs().maxCoeff());
+}
+
+Counterpart travel_drag(const FittedCause& c) {
+  return power_drag(c, c.frame.torsion_rate.abs().maxCoeff());
+}
+
 }  // namespace
 
 CauseRow describe_nonlinear_viscous_friction() {
   const auto form = [](std::string_view equation, std::vector<Rig> rigs, Equation at, auto shapes,
-                       auto columns) {
+                       auto columns, auto counterpart) {
     return CauseForm{.equation = equation,
                      .rigs = std::move(rigs),
                      .at = {at},
                      .shapes = shapes,
                      .columns = columns,
                      .nonnegative = true,
-                     .travels_only = true};
+                     .travels_only = true,
+                     .counterpart = counterpart,
+                     .no_counterpart =
+                         "the catalogue of effects has power laws at the motor, not "
+                         "at the load"};
   };
-  return {
-      .id = "nonlinear_viscous_friction",
-      .coordinate = "velocity",
-      .forms = {form("tau_f += c |w|^n sgn w", kDrives, Equation::motor, steep, at_motor),
-                form("tau_f += c |w|^n sgn w", kDrives, Equation::motor, flat, at_motor),
-                form("tau_L += c |w_l|^n sgn w_l", {Rig::free}, Equation::load, steep, at_load),
-                form("tau_L += c |w_l|^n sgn w_l", {Rig::free}, Equation::load, flat, at_load),
-                form("tau += c |q'|^n sgn q'", {Rig::specimen}, Equation::torsion, steep, across),
-                form("tau += c |q'|^n sgn q'", {Rig::specimen}, Equation::torsion, flat, across)}};
+  Counterpart (*const none)(const FittedCause&) = nullptr;
+  return {.id = "nonlinear_viscous_friction",
+          .coordinate = "velocity",
+          .forms = {
+              form("tau_f += c |w|^n sgn w", kMotors, Equation::motor, steep, at_motor, motor_drag),
+              form("tau_f += c |w|^n sgn w", kMotors, Equation::motor, flat, at_motor, motor_drag),
+              form("tau_L += c |w_l|^n sgn w_l", {Rig::free}, Equation::load, steep, at_load, none),
+              form("tau_L += c |w_l|^n sgn w_l", {Rig::free}, Equation::load, flat, at_load, none),
+              form("tau += c |q'|^n sgn q'", {Rig::specimen}, Equation::torsion, steep, across,
+                   travel_drag),
+              form("tau += c |q'|^n sgn q'", {Rig::specimen}, Equation::torsion, flat, across,
+                   travel_drag)}};
 }
 
 }  // namespace flexspline::studies

@@ -26,14 +26,34 @@ Columns across(Equation, const Frame& f, const Reference& known, Values shape) {
   return {fading(f.torsion_rate, shape) * rounded_sign(f.torsion_rate, known.torsion_coulomb_rate)};
 }
 
+Counterpart motor_peak(const FittedCause& c) {
+  return {.effects = by_sign_part(c, "stribeck_friction", [&](double share, double width) {
+            return std::vector<std::pair<std::string, double>>{
+                {"excess", share * c.coefficients[0]},
+                {"stribeck_speed", c.shape[0]},
+                {"exponent", c.shape[1]},
+                {"smoothing", width}};
+          })};
+}
+
+Counterpart gear_peak(const FittedCause& c) {
+  return {.effects = {{"stribeck_friction",
+                       {{"excess", c.coefficients[0]},
+                        {"stribeck_speed", c.shape[0]},
+                        {"exponent", c.shape[1]},
+                        {"smoothing", c.torsion_coulomb_rate}}}},
+          .caveat = speed_caveat(c.frame)};
+}
+
 CauseForm form(std::string_view equation, Equation at, decltype(CauseForm::columns) columns) {
   const bool motor = at == Equation::motor;
   return {.equation = equation,
-          .rigs = motor ? kDrives : kAnyRig,
+          .rigs = motor ? kMotors : kAnyRig,
           .at = {at},
           .shapes = motor ? motor_speed : rate,
           .columns = columns,
-          .nonnegative = true};
+          .nonnegative = true,
+          .counterpart = motor ? motor_peak : gear_peak};
 }
 
 }  // namespace

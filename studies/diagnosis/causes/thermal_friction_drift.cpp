@@ -23,23 +23,39 @@ Columns across(Equation, const Frame& f, const Reference& known, Values shape) {
   return {cold_share(f, shape[0]) * known.dissipative};
 }
 
+Counterpart motor_warms(const FittedCause& c) {
+  Counterpart counterpart{
+      .effects = by_sign_part(c, "thermal_friction_drift", [&](double share, double width) {
+        return std::vector<std::pair<std::string, double>>{
+            {"coulomb", share * c.coefficients[0]},
+            {"viscous", share * c.coefficients[1] / c.frame.speed_range},
+            {"time_constant", c.shape[0]},
+            {"smoothing", width}};
+      })};
+  counterpart.caveat = kSessionClock;
+  return counterpart;
+}
+
 }  // namespace
 
 CauseRow describe_thermal_friction_drift() {
   return {.id = "thermal_friction_drift",
           .coordinate = "time",
           .forms = {{.equation = "tau_f += (c sgn w + B w) exp(-t/T), t of the session",
-                     .rigs = kDrives,
+                     .rigs = kMotors,
                      .at = {Equation::motor},
                      .shapes = warming,
                      .columns = at_motor,
-                     .nonnegative = true},
+                     .nonnegative = true,
+                     .counterpart = motor_warms},
                     {.equation = "tau += c g^-1(phi'/h) exp(-t/T), t of the session",
                      .rigs = {Rig::locked, Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = warming,
                      .columns = across,
-                     .nonnegative = true}}};
+                     .nonnegative = true,
+                     .no_counterpart =
+                         "the catalogue of effects warms up the motor's friction, not g^-1"}}};
 }
 
 }  // namespace flexspline::studies
