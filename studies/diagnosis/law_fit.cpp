@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Dense>
+
 #include "diagnosis/baseline.hpp"
 #include "diagnosis/cause_columns.hpp"
 #include "flexspline/core/integrated_basis.hpp"
@@ -85,15 +87,33 @@ VectorXd nonnegative_fit(const MatrixXd& columns, const VectorXd& target) {
   return estimators::solve_linear(problem, {}).b;
 }
 
-FittedLaw elastic_law(const Frame& seen, const VectorXd& own,
+FittedLaw elastic_law(const Frame& seen, const VectorXd& own, double range,
                       const std::function<double(double)>& sees) {
-  const ArrayXd phi = points_on(seen.torsion_range);
+  const ArrayXd phi = points_on(range);
   const ArrayXd felt = sees ? ArrayXd(phi.unaryExpr(sees)) : phi;
   const auto c =
       baseline_columns(moved(seen, felt, ArrayXd::Zero(phi.size())), Equation::torsion, kUnshifted);
   const ArrayXd torque = (c.columns.leftCols(c.elastic) * own.head(c.elastic)).array();
-  return monotone_spline(seen.torsion_range, even_knots(sees ? kKnotsOfAGap : kElasticKnots), phi,
-                         torque);
+  return monotone_spline(range, even_knots(sees ? kKnotsOfAGap : kElasticKnots), phi, torque);
+}
+
+LawSpec modulation_law(const Frame& seen, std::span<const double> shape, double range,
+                       const std::function<double(double)>& sees) {
+  LawSpec law{.law = "held_modulation",
+              .scale = range,
+              .knots = {},
+              .coefficients = {shape[0], shape[1]},
+              .valid_to = range};
+  if (!sees) return law;
+  const ArrayXd phi = points_on(range);
+  const ArrayXd seen2 = (phi.unaryExpr(sees) / seen.torsion_range).square();
+  const ArrayXd u2 = (phi / range).square();
+  MatrixXd columns(phi.size(), 2);
+  columns << u2.matrix(), u2.square().matrix();
+  const VectorXd target = shape[0] * seen2 + shape[1] * seen2.square();
+  const VectorXd c = columns.householderQr().solve(target);
+  law.coefficients = {c.begin(), c.end()};
+  return law;
 }
 
 // Its knots as the baseline's: steepest near rest, from the slowest tenth of the recordings on.

@@ -20,10 +20,14 @@ struct FittedLaw {
 /// The b >= 0 with the smallest ||columns b - target||.
 Eigen::VectorXd nonnegative_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target);
 
-/// f of a gear over the torsion that is seen, as an odd monotone spline; sees: what of the torsion
-/// f gets, empty for all.
-FittedLaw elastic_law(const Frame& seen, const Eigen::VectorXd& own,
+/// f of a gear over the torsion up to a range, as an odd monotone spline; sees: what of the torsion
+/// it gets, empty for all.
+FittedLaw elastic_law(const Frame& seen, const Eigen::VectorXd& own, double range,
                       const std::function<double(double)>& sees);
+
+/// h = exp(c1 x^2 + c2 x^4) of what is seen of the torsion, by least squares of ln h.
+LawSpec modulation_law(const Frame& seen, std::span<const double> shape, double range,
+                       const std::function<double(double)>& sees);
 
 /// g^-1 of a gear over phi'/h.
 FittedLaw dissipative_law(const Frame& seen, const Eigen::VectorXd& own);

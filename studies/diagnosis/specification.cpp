@@ -134,7 +134,8 @@ class Specifier {
 
   void put_gear_laws(const Eigen::VectorXd& own, Index laws) {
     const auto& shape = model_.torsion_shape;
-    FittedLaw f = elastic_law(seen_, own, spring_sees_);
+    const double range = spring_sees_ ? frame_.torsion_range : seen_.torsion_range;
+    FittedLaw f = elastic_law(seen_, own, range, spring_sees_);
     FittedLaw g = dissipative_law(seen_, own);
     for (const auto& [name, error] : {std::pair("f", f.error), std::pair("g^-1", g.error)}) {
       if (error < kWorthSaying) continue;
@@ -142,11 +143,7 @@ class Specifier {
     }
     spec_.f = std::move(f.law);
     spec_.g_inverse = std::move(g.law);
-    spec_.h = {.law = "held_modulation",
-               .scale = seen_.torsion_range,
-               .knots = {},
-               .coefficients = {shape[0], shape[1]},
-               .valid_to = seen_.torsion_range};
+    spec_.h = modulation_law(seen_, shape, range, spring_sees_);
     split_sides();
     if (shape[2] != 0.0) {
       spec_.effects.push_back({"torsion_zero", {{"zero", shape[2] * seen_.torsion_range}}});

@@ -19,6 +19,10 @@ void load_late(Frame& f, Values shape) {
   f.torsion_rate -= shape[0] * f.load_acceleration;
 }
 
+Counterpart as_skew(const FittedCause& c) {
+  return {.effects = {{"encoder_skew", {{"delay", c.shape[0]}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_encoder_skew() {
@@ -29,7 +33,8 @@ CauseRow describe_encoder_skew() {
                      .at = {Equation::torsion},
                      .shapes = skew,
                      .transform = load_late,
-                     .start = none}}};
+                     .start = none,
+                     .counterpart = as_skew}}};
 }
 
 }  // namespace flexspline::studies

@@ -22,6 +22,15 @@ Columns before_sensor(Equation equation, const Frame& f, const Reference&, Value
   return of_torque_signal(equation, f, {f.load_acceleration});
 }
 
+Counterpart as_inertia(const FittedCause& c) {
+  return {.effects = {{"inertia_torque", {{"inertia", c.coefficients[0]}}}}};
+}
+
+constexpr std::string_view kConstant = "a rig's inertias are its constants, not effects of a model";
+
+constexpr std::string_view kNotOfLoad =
+    "the catalogue of effects has an inertia before the sensor only where the torsion moves it";
+
 }  // namespace
 
 CauseRow describe_inertia_torque() {
@@ -31,19 +40,23 @@ CauseRow describe_inertia_torque() {
                      .rigs = {Rig::locked, Rig::specimen},
                      .at = {Equation::torsion},
                      .columns = of_torsion,
-                     .nonnegative = true},
+                     .nonnegative = true,
+                     .counterpart = as_inertia},
                     {.equation = "tau_measured = tau + J theta_l''",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
-                     .columns = before_sensor},
+                     .columns = before_sensor,
+                     .no_counterpart = kNotOfLoad},
                     {.equation = "tau_L += J theta_l''",
                      .rigs = {Rig::free},
                      .at = {Equation::load},
-                     .columns = of_load},
+                     .columns = of_load,
+                     .no_counterpart = kConstant},
                     {.equation = "tau_f += J theta_m''",
                      .rigs = kDrives,
                      .at = {Equation::motor},
-                     .columns = of_motor}}};
+                     .columns = of_motor,
+                     .no_counterpart = kConstant}}};
 }
 
 }  // namespace flexspline::studies

@@ -44,6 +44,18 @@ Columns torque_wound_up(Equation, const Frame& f, const Reference&, Values shape
   return sine_pair(f.motor_angle, shape[0]);
 }
 
+Counterpart as_error(const FittedCause& c) {
+  EffectSpec effect{"kinematic_error", {}};
+  for (std::size_t i = 0; i < kOrders.size(); ++i) {
+    const auto one = harmonic(kOrders[i], c.shape[2 * i], c.shape[2 * i + 1]);
+    effect.parameters.insert(effect.parameters.end(), one.begin(), one.end());
+  }
+  return {.effects = {std::move(effect)}};
+}
+
+constexpr std::string_view kNoTorsion =
+    "a model file has kinematic errors in the torsion, which was not measured";
+
 }  // namespace
 
 CauseRow describe_kinematic_error() {
@@ -54,13 +66,15 @@ CauseRow describe_kinematic_error() {
                      .at = {Equation::torsion},
                      .shapes = amplitudes,
                      .transform = error,
-                     .start = start},
+                     .start = start,
+                     .counterpart = as_error},
                     {.equation = "tau += a sin k N q + b cos k N q",
                      .rigs = {Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = turns,
                      .columns = torque_wound_up,
-                     .travels_only = true}}};
+                     .travels_only = true,
+                     .no_counterpart = kNoTorsion}}};
 }
 
 }  // namespace flexspline::studies

@@ -27,6 +27,13 @@ void torque_of_now(Frame& f, Values shape) {
 
 void motor_torque_late(Frame& f, Values shape) { f.motor_torque += shape[0] * f.motor_torque_rate; }
 
+Counterpart torque_late(const FittedCause& c) {
+  return {.effects = {{"sensor_delay", {{"delay", c.shape[0]}}}}};
+}
+
+constexpr std::string_view kNotAtMotor =
+    "the catalogue of effects delays the torque sensor, not the motor torque";
+
 }  // namespace
 
 CauseRow describe_sensor_delay() {
@@ -37,19 +44,22 @@ CauseRow describe_sensor_delay() {
                      .at = {Equation::torsion},
                      .shapes = delay,
                      .transform = motion_of_then,
-                     .start = small},
+                     .start = small,
+                     .counterpart = torque_late},
                     {.equation = "tau_measured(t) = tau(t - d)",
                      .rigs = kDrives,
                      .at = {Equation::torsion, Equation::load, Equation::motor},
                      .shapes = delay,
                      .transform = torque_of_now,
-                     .start = small},
+                     .start = small,
+                     .counterpart = torque_late},
                     {.equation = "tau_m,recorded(t) = tau_m(t - d)",
                      .rigs = kDrives,
                      .at = {Equation::motor},
                      .shapes = delay,
                      .transform = motor_torque_late,
-                     .start = small}}};
+                     .start = small,
+                     .no_counterpart = kNotAtMotor}}};
 }
 
 }  // namespace flexspline::studies

@@ -11,6 +11,12 @@ Columns gain(Equation, const Frame& f, const Reference&, Values) {
   return {-(f.motor_inertia * f.motor_acceleration + f.torque / f.ratio)};
 }
 
+// What was recorded is the share 1 - a of what there was.
+Counterpart as_error(const FittedCause& c) {
+  const double a = c.coefficients[0];
+  return {.effects = {{"torque_constant_error", {{"error", a / (1.0 - a)}}}}};
+}
+
 }  // namespace
 
 CauseRow describe_torque_constant_error() {
@@ -19,7 +25,8 @@ CauseRow describe_torque_constant_error() {
           .forms = {{.equation = "tau_m = (1 + e) tau_m,recorded",
                      .rigs = kDrives,
                      .at = {Equation::motor},
-                     .columns = gain}}};
+                     .columns = gain,
+                     .counterpart = as_error}}};
 }
 
 }  // namespace flexspline::studies
