@@ -71,6 +71,25 @@ void after_reversal(Frame& f, Values shape) {
   }
 }
 
+// f gets what is beyond the gap; the damper moves in it too.
+Counterpart gap_of_the_spring(const FittedCause& c) {
+  const double b = c.shape[0];
+  return {.spring_sees = [b](double phi) { return wound(ArrayXd::Constant(1, phi), b)[0]; },
+          .caveat = "f itself stays flat in the gap"};
+}
+
+Counterpart gap_of_the_gear(const FittedCause& c) {
+  return {
+      .effects = {{"backlash", {{"half_gap", c.shape[0]}, {"rounding", kRounding * c.shape[0]}}}}};
+}
+
+Counterpart as_lost_motion(const FittedCause& c) {
+  return {.effects = {{"lost_motion", {{"half_gap", c.shape[0]}, {"width", c.shape[1]}}}}};
+}
+
+constexpr std::string_view kNotByMotion =
+    "the catalogue's play follows the torque, not the torsion";
+
 }  // namespace
 
 CauseRow describe_backlash() {
@@ -81,22 +100,26 @@ CauseRow describe_backlash() {
                      .rigs = kAnyRig,
                      .at = at,
                      .shapes = gap,
-                     .transform = spring_alone},
+                     .transform = spring_alone,
+                     .counterpart = gap_of_the_spring},
                     {.equation = "f(phi_e) + g^-1(phi_e'/h), phi_e = phi - clamp(phi, -b, b)",
                      .rigs = kAnyRig,
                      .at = at,
                      .shapes = gap,
-                     .transform = whole_gear},
+                     .transform = whole_gear,
+                     .counterpart = gap_of_the_gear},
                     {.equation = "f(phi_e) + g^-1(phi_e'/h), phi_e = phi - b tau/sqrt(tau^2 + t^2)",
                      .rigs = kAnyRig,
                      .at = at,
                      .shapes = lost_motion,
-                     .transform = around_zero_torque},
+                     .transform = around_zero_torque,
+                     .counterpart = as_lost_motion},
                     {.equation = "f(p) + g^-1(p'/h), p the play of phi by b on either side",
                      .rigs = {Rig::specimen},
                      .at = at,
                      .shapes = gap,
-                     .transform = after_reversal}}};
+                     .transform = after_reversal,
+                     .no_counterpart = kNotByMotion}}};
 }
 
 }  // namespace flexspline::studies
