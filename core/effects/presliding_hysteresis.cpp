@@ -40,7 +40,7 @@ EffectRow describe_presliding_hysteresis() {
       .range = "any motion; starts unloaded",
       .not_modelled = "drift under a held load; dependence of the yields on load or temperature",
       .source = "Iwan (1966); Tjahjowidodo, Al-Bender, Van Brussel, Mechatronics 23(5), 2013",
-      .parameters = {{"stiffness", "Nm/rad", 0.0, 1e6, 1000.0,
+      .parameters = {{"stiffness", "Nm/rad", 0.0, 1e9, 1000.0,
                       "Table I read as rate-independent: half height 4.5 Nm"},
                      {"yield", "rad", 1e-7, 0.1, 3e-4,
                       "catalogue hysteresis of ratio 50: 2 arcmin"}},
