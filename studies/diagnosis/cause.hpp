@@ -46,6 +46,7 @@ struct CauseForm {
   std::vector<double> (*start)(const Frame&) = nullptr;
   bool nonnegative = false;   ///< a_k >= 0
   bool travels_only = false;  ///< on a specimen: only where an angle travels
+  bool wound_only = false;    ///< on a specimen: only where it is wound up, not where it travels
   /// What it is in a model file, by the catalogue of effects.
   Counterpart (*counterpart)(const FittedCause&) = nullptr;
   std::string_view no_counterpart = {};  ///< why there is none

@@ -17,6 +17,8 @@ using Series = std::vector<double>;
 
 constexpr double kRippleError = 0.02;   // of the acceleration that follows from a periodic angle
 constexpr double kRippleLimit = 0.002;  // that error's torque over the largest motor torque
+constexpr double kSameZero = 0.2;       // zeros that differ by less, over the widest motion
+constexpr double kSticking = 0.02;      // of the largest speed
 constexpr double kGravity = 9.80665;    // m/s2
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends
 
@@ -122,7 +124,9 @@ class FrameMaker {
 
   Frame finish() {
     complete_motion();
+    centre_recordings();
     measure_ranges();
+    leave_out_sticking();
     leave_out_hidden_motor();
     return std::move(frame_);
   }
@@ -182,6 +186,47 @@ class FrameMaker {
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;
     f.torsion_acceleration = f.motor_acceleration / f.ratio - f.load_acceleration;
+  }
+
+  // Mean torsion where the torque changes its sign; 0 where it does so less than four times.
+  double unloaded_at(const Segment& s) const {
+    double sum = 0.0;
+    int count = 0;
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+      if (frame_.torque[r] * frame_.torque[r - 1] > 0.0) continue;
+      sum += 0.5 * (frame_.torsion[r] + frame_.torsion[r - 1]);
+      ++count;
+    }
+    return count < 4 ? 0.0 : sum / count;
+  }
+
+  // Mountings whose zeros differ are each counted from where they are unloaded.
+  void centre_recordings() {
+    Frame& f = frame_;
+    if (f.rig != Rig::specimen || f.travels) return;
+    ArrayXd zeros(static_cast<Index>(f.segments.size()));
+    double widest = 0.0;
+    for (Index i = 0; i < zeros.size(); ++i) {
+      const Segment& s = f.segments[static_cast<std::size_t>(i)];
+      zeros[i] = unloaded_at(s);
+      const auto part = f.torsion.segment(s.first, s.count);
+      widest = std::max(widest, 0.5 * (part.maxCoeff() - part.minCoeff()));
+    }
+    if (zeros.abs().maxCoeff() < kSameZero * widest) return;
+    for (Index i = 0; i < zeros.size(); ++i) {
+      const Segment& s = f.segments[static_cast<std::size_t>(i)];
+      f.torsion.segment(s.first, s.count) -= zeros[i];
+    }
+    f.load_angle = f.motor_angle = f.torsion;
+    f.notes.push_back(
+        "the zeros of the recordings differ: each is counted from its mean torsion at zero torque");
+  }
+
+  // A servo that holds still takes any drive up to its breakaway.
+  void leave_out_sticking() {
+    Frame& f = frame_;
+    if (f.rig != Rig::servo) return;
+    f.usable *= (f.motor_speed.abs() > kSticking * f.speed_range).cast<double>();
   }
 
   // A motor that follows a kinematic error accelerates by more than its angle can tell.

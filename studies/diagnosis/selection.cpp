@@ -46,12 +46,6 @@ bool is_left(const CoordinateScore& score, const Limits& limits) {
   return score.statistic > limits.remainder && score.share > limits.remainder_share;
 }
 
-double total_gain(const std::vector<Accepted>& accepted) {
-  double gain = 0.0;
-  for (const Accepted& a : accepted) gain += a.trial.gain;
-  return gain;
-}
-
 double worst_misfit(const Frame& frame, const Findings& findings) {
   double worst = 0.0;
   for (Equation equation : frame.equations) {
@@ -61,12 +55,37 @@ double worst_misfit(const Frame& frame, const Findings& findings) {
   return worst;
 }
 
-// The causes stand where they remove most of the misfit, or leave no more than noise does.
+/// Weighted sums of squares over all equations: what the causes took, what a coordinate still
+/// orders, and what there was.
+struct Balance {
+  double taken = 0.0;
+  double ordered = 0.0;
+  double before = 0.0;
+};
+
+Balance balance_of(const Frame& frame, const Selection& s) {
+  Balance b;
+  for (Equation equation : frame.equations) {
+    const Misfit m = misfit_of(s.baseline, s.final, equation);
+    b.before += m.before;
+    b.taken += m.before - m.after;
+    for (const CoordinateScore& score : s.after) {
+      if (score.equation != equation) continue;
+      b.ordered += score.share * m.after;
+      break;
+    }
+  }
+  return b;
+}
+
+// The causes stand where they leave little that anything could order, and remove most of the
+// misfit, or leave no more than noise does.
 bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits) {
-  const double left = s.after.empty() ? 0.0 : std::max(s.after.front().statistic, 0.0);
-  const double named = total_gain(s.accepted);
-  if (left > limits.remainder && named < limits.explained * (named + left)) return false;
-  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit;
+  const Balance b = balance_of(frame, s);
+  const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
+  if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;
+  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit ||
+         b.taken > limits.half * b.before;
 }
 
 double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
@@ -133,7 +152,8 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
   Accepted accepted;
   accepted.trial = std::move(trials[best]);
   accepted.first_gain = accepted.trial.gain;
-  accepted.material = accepted.trial.size >= limits.size;
+  accepted.material =
+      accepted.trial.size >= limits.size && accepted.trial.net_gain >= limits.named_gain;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr) continue;
     const bool alike =

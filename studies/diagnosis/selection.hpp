@@ -12,6 +12,7 @@ namespace flexspline::studies {
 /// from: docs/calibration.md.
 struct Limits {
   double net_gain = 45.0;         ///< least net gain of a cause
+  double named_gain = 150.0;      ///< least net gain of a cause that is named
   double size = 0.008;            ///< least size of a cause, share of the largest torque
   double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
   double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
@@ -20,6 +21,7 @@ struct Limits {
   double shadow = 0.03;           ///< gain over that of a larger cause of the same equation
   double twin_shadow = 0.1;       ///< the same over that of one that could stand for it
   double explained = 0.75;        ///< share of the misfit that the causes have to remove
+  double half = 0.5;              ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;            ///< mean square over noise that counts as explained
   int rounds = 7;
 };

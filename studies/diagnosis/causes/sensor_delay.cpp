@@ -45,6 +45,7 @@ CauseRow describe_sensor_delay() {
                      .shapes = delay,
                      .transform = motion_of_then,
                      .start = small,
+                     .wound_only = true,
                      .counterpart = torque_late},
                     {.equation = "tau_measured(t) = tau(t - d)",
                      .rigs = kDrives,

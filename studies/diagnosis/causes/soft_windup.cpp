@@ -32,6 +32,7 @@ CauseRow describe_soft_windup() {
                      .at = {Equation::torsion},
                      .shapes = knee,
                      .columns = stiffening,
+                     .wound_only = true,
                      .counterpart = as_windup}}};
 }
 

@@ -60,6 +60,7 @@ CauseRow describe_viscoelastic_creep() {
                      .at = {Equation::torsion},
                      .columns = branches,
                      .nonnegative = true,
+                     .wound_only = true,
                      .counterpart = as_branches}}};
 }
 
