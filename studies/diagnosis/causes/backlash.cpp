@@ -75,7 +75,7 @@ void after_reversal(Frame& f, Values shape) {
 Counterpart gap_of_the_spring(const FittedCause& c) {
   const double b = c.shape[0];
   return {.spring_sees = [b](double phi) { return wound(ArrayXd::Constant(1, phi), b)[0]; },
-          .caveat = "f itself stays flat in the gap"};
+          .caveat = "f itself stays flat in the gap; what else goes by the torsion sees all of it"};
 }
 
 Counterpart gap_of_the_gear(const FittedCause& c) {
