@@ -68,6 +68,14 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.series = spelled_series(*frame, *selection);
   d.next_experiment = next_experiment(*frame, *selection);
   d.says = spelled_verdict(d);
+  if (one_loop(*frame) && d.verdict == Verdict::adequate) {
+    d.next_experiment = another_rate(*frame);
+    d.says =
+        "Cannot be decided with these data: the baseline follows this one loop, but at one "
+        "amplitude "
+        "and one rate viscous damping and a memory without rate look the same.";
+    d.notes.push_back(d.says);
+  }
   return d;
 }
 

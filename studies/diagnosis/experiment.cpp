@@ -1,6 +1,8 @@
 #include "diagnosis/experiment.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -63,6 +65,35 @@ const Trial* closest_rival(const Selection& s) {
 bool on_torsion(const Trial& trial) { return trial.cause.form->at.front() == Equation::torsion; }
 
 }  // namespace
+
+bool one_loop(const Frame& frame) {
+  if (frame.travels || !frame.has(Equation::torsion) || frame.rig == Rig::free) return false;
+  const auto alike = [](const ArrayXd& channel, const Frame& f) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (const Segment& s : f.segments) {
+      const double range = channel.segment(s.first, s.count).abs().maxCoeff();
+      least = std::min(least, range);
+      most = std::max(most, range);
+    }
+    return least > 0.9 * most;
+  };
+  return alike(frame.torsion, frame) && alike(frame.torsion_rate, frame);
+}
+
+NextExperiment another_rate(const Frame& frame) {
+  NextExperiment next;
+  next.separates = {"presliding_hysteresis", "viscous damping"};
+  next.excitation = "sine";
+  next.amplitude = frame.torsion_range;
+  next.frequency_hz = 0.25 * frame.rate_range / (2.0 * std::numbers::pi * frame.torsion_range);
+  next.says = fmt::format(
+      "the same amplitude at {:.3g} Hz: what is viscous shrinks with the rate, what is a memory "
+      "does "
+      "not",
+      next.frequency_hz);
+  return next;
+}
 
 std::optional<NextExperiment> next_experiment(const Frame& frame, const Selection& s) {
   const Trial* rival = closest_rival(s);

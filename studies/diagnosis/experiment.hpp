@@ -13,4 +13,11 @@ namespace flexspline::studies {
 /// free rig, whose torsion follows from the load.
 std::optional<NextExperiment> next_experiment(const Frame& frame, const Selection& selection);
 
+/// Whether all recordings run the torsion at one amplitude and one rate, so that g^-1 can take up a
+/// memory that knows no rate.
+bool one_loop(const Frame& frame);
+
+/// What settles one loop: the same amplitude at a quarter of its rate.
+NextExperiment another_rate(const Frame& frame);
+
 }  // namespace flexspline::studies

@@ -9,7 +9,7 @@
 namespace flexspline::studies {
 
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
-/// from: docs/calibration.md.
+/// from: docs/diagnosis.md.
 struct Limits {
   double net_gain = 45.0;         ///< least net gain of a cause
   double named_gain = 150.0;      ///< least net gain of a cause that is named
