@@ -27,7 +27,7 @@ TEST_P(DiagnoseVisible, EffectIsNamedFirstLocatedAndProved) { expect_found(GetPa
 INSTANTIATE_TEST_SUITE_P(AtSixPercent, DiagnoseVisible,
                          testing::Values(Bench{Rig::locked, 201, "inertia_torque"},
                                          Bench{Rig::locked, 202, "presliding_hysteresis"},
-                                         Bench{Rig::locked, 209, "backlash"},
+                                         Bench{Rig::locked, 208, "backlash"},
                                          Bench{Rig::free, 206, "gravity_load"}),
                          [](const auto& tested) { return tested.param.effect; });
 
