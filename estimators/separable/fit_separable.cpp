@@ -29,10 +29,13 @@ Eigen::VectorXd coefficients(const std::vector<SeparableBlock>& blocks,
       [](double d) { return d > 0.0 && std::isfinite(d) ? 1.0 / std::sqrt(d) : 0.0; });
   Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   scaled.diagonal().array() += 1e-12;
-  const Eigen::VectorXd b =
-      bounded_least_squares(scaled, scale.cwiseProduct(right),
-                            lower.unaryExpr([](double l) { return std::isfinite(l) ? 0.0 : l; }));
-  return scale.cwiseProduct(b);
+  // In scaled parameters; a column of zeros stays at its bound.
+  Eigen::VectorXd bound = lower;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    if (std::isfinite(lower[i])) bound[i] = scale[i] > 0.0 ? lower[i] / scale[i] : 0.0;
+  }
+  const Eigen::VectorXd b = bounded_least_squares(scaled, scale.cwiseProduct(right), bound);
+  return scale.cwiseProduct(b).cwiseMax(lower);
 }
 
 Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& parts) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,17 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kEven = 1e-9;  // relative jitter up to which sampling counts as even
+
+double spread_valid(const TorsionRecord& record, std::span<const double> values) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i < record.valid.size() && !record.valid[i]) continue;
+    low = std::min(low, values[i]);
+    high = std::max(high, values[i]);
+  }
+  return high > low ? high - low : 0.0;
+}
 
 double largest_valid(const TorsionRecord& record, std::span<const double> values) {
   double result = 0.0;
@@ -24,11 +36,11 @@ Result<void> check(const TorsionRecord& record) {
                    fmt::format("recording {} has {} samples", record.id, record.time.size()),
                    "give 16 or more");
   }
-  if (!(largest_valid(record, record.motion) > 0.0) ||
-      !(largest_valid(record, record.effort) > 0.0)) {
+  if (!(spread_valid(record, record.motion) > 0.0) ||
+      !(spread_valid(record, record.effort) > 0.0)) {
     return failure(ErrorCode::bad_data,
                    fmt::format("recording {} has no {}", record.id,
-                               largest_valid(record, record.motion) > 0.0 ? "torque" : "motion"),
+                               spread_valid(record, record.motion) > 0.0 ? "torque" : "motion"),
                    "leave it out");
   }
   return {};

@@ -324,6 +324,10 @@ void Frame::measure_torsion() {
 bool Frame::has(Equation equation) const { return std::ranges::count(equations, equation) > 0; }
 
 Result<Frame> make_frame(const RecordingSet& set, Index most_rows) {
+  if (set.recordings.empty()) {
+    return failure(ErrorCode::bad_data, "the data set has no recordings",
+                   "a diagnosis needs one or more");
+  }
   const auto order = in_order(set);
   const Index stride = stride_for(order, most_rows);
   Index rows = 0;

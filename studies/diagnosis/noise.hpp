@@ -16,7 +16,8 @@ struct EquationNoise {
 std::vector<double> noise_levels(const Frame& frame, const Eigen::ArrayXd& residual);
 
 /// 1 + 2 sum of autocorrelations over forty lags, of the residual about a running parabola of 161
-/// samples; at least 1.
+/// samples; at least 1. Slow noise passes the parabola only in part, so of a first-order process
+/// longer than some samples this is far too little: the limits of a decision were set with it.
 double noise_colour(const Frame& frame, const Eigen::ArrayXd& residual);
 
 /// Weights 1/level of usable rows.

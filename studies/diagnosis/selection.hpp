@@ -12,7 +12,7 @@ namespace flexspline::studies {
 /// from: docs/diagnosis.md.
 struct Limits {
   double net_gain = 45.0;         ///< least net gain of a cause
-  double named_gain = 150.0;      ///< least net gain of a cause that is named
+  double named_gain = 200.0;      ///< least net gain of a cause that is named
   double size = 0.008;            ///< least size of a cause, share of the largest torque
   double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
   double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative

@@ -175,7 +175,9 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
     list.push_back(std::move(m));
   }
   for (const CoordinateScore& score : s.before) {
-    if (list.size() >= kMostMismatches || score.statistic < limits.remainder) break;
+    // Where something is left, the strongest coordinate is told even if it orders little of it.
+    const bool told = score.statistic >= limits.remainder || (list.empty() && s.remainder);
+    if (list.size() >= kMostMismatches || !told) break;
     if (listed(list, score.coordinate)) continue;
     Mismatch m = at_worst(frame, s.baseline, score.equation);
     m.coordinate = score.coordinate;

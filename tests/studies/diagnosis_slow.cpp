@@ -38,7 +38,7 @@ TEST(DiagnoseSlow, NeverNamesWhatIsInNoCatalogue) {
 }
 
 // Off while a remainder that the whole misfit tells, and no coordinate, has no place.
-TEST(DiagnoseSlow, DISABLED_SaysWhereWhatHasNoNameIs) {
+TEST(DiagnoseSlow, SaysWhereWhatHasNoNameIs) {
   for (const Bench& bench :
        {Bench{Rig::locked, 301, "unknown:cross"}, Bench{Rig::locked, 302, "unknown:cross"}}) {
     EXPECT_FALSE(diagnosed(bench.make().recordings).mismatch.empty()) << bench.words();

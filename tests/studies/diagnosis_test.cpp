@@ -105,8 +105,7 @@ TEST(Diagnose, RefusesRecordingsWithoutATorqueAcrossTheTransmission) {
             std::string::npos);
 }
 
-// A reader refuses such a set; from memory it ends the program.
-TEST(Diagnose, DISABLED_RefusesASetOfNoRecordings) {
+TEST(Diagnose, RefusesASetOfNoRecordings) {
   RecordingSet set = drawn_case(Rig::locked, 101).recordings;
   set.recordings.clear();
   EXPECT_FALSE(diagnose(set).has_value());

@@ -52,7 +52,7 @@ Counterpart at_the_motor(const FittedCause& c) {
 
 CauseRow describe_encoder_eccentricity() {
   return {.id = "encoder_eccentricity",
-          .coordinate = "load_angle",
+          .coordinate = "motor_angle",
           .forms = {{.equation = "theta_l,measured = theta_l + e sin(theta_l + p)",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load},
