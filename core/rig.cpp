@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flexspline/core/effect_path.hpp"
+#include "flexspline/core/monotone_input.hpp"
 #include "flexspline/core/spline.hpp"
 #include "rigs/rig_parts.hpp"
 
@@ -71,6 +72,10 @@ double constant_named(const DriveSpec& drive, std::string_view name) {
 }  // namespace
 
 Signal sampled_signal(std::span<const double> time, std::span<const double> samples) {
+  if (const auto input = MonotoneInput::through(time, samples)) {
+    return {[input = *input](double t) { return input.value(t); },
+            [input = *input](double t) { return input.slope(t); }};
+  }
   const auto spline = std::make_shared<Spline>(time, samples);
   return {[spline](double t) { return spline->value(t); },
           [spline](double t) { return spline->slope(t); }};
