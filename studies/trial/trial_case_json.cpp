@@ -10,20 +10,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string_view word_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::adequate:
-      return "adequate";
-    case Verdict::explained:
-      return "explained";
-    case Verdict::partly_explained:
-      return "partly_explained";
-    case Verdict::unexplained:
-      break;
-  }
-  return "unexplained";
-}
-
 ordered_json cause_json(const Cause& cause) {
   return {{"effect", cause.effect},
           {"probability", cause.probability},
@@ -79,7 +65,7 @@ CaseScore score_from_json(const ordered_json& json) {
 }  // namespace
 
 ordered_json excerpt_of(const Diagnosis& diagnosis) {
-  ordered_json json = {{"verdict", word_of(diagnosis.verdict)},
+  ordered_json json = {{"verdict", name_of(diagnosis.verdict)},
                        {"says", diagnosis.says},
                        {"noise_std", diagnosis.noise_std},
                        {"causes", ordered_json::array()},
