@@ -7,6 +7,8 @@
 #include <set>
 #include <thread>
 
+#include "flexspline/core/estimate.hpp"
+
 namespace flexspline::studies {
 namespace {
 
@@ -215,7 +217,7 @@ Trial refined(const Frame& frame, const Findings& findings, const FirstLook& loo
   trial.net_gain = trial.gain - search_penalty(tried) -
                    trial.parameters * std::log(effective_rows(frame, findings, *trial.cause.form));
   const double misfit = excess(frame, findings, findings.fit);
-  trial.removed = misfit > 0.0 ? trial.gain / misfit : 0.0;
+  trial.removed = misfit > 0.0 ? std::clamp(trial.gain / misfit, 0.0, 1.0) : kNotComputed;
   trial.size = size_of(frame, findings, trial);
   return trial;
 }

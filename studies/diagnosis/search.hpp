@@ -29,7 +29,7 @@ struct Trial {
   double gain = 0.0;      ///< fall of the chi square
   double net_gain = 0.0;  ///< less what as many parameters and that search gain on noise
   int parameters = 0;
-  double removed = 0.0;  ///< share of the misfit beyond noise that it removes
+  double removed = 0.0;  ///< share of the misfit beyond noise, at most 1
   double size = 0.0;     ///< largest contribution over the largest torque of its equation
 };
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/math/special_functions/gamma.hpp>
 
 #include "diagnosis/baseline.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
+constexpr double kLargestChiSquare = 1200.0;  // beyond it the probability is no number above 0
 constexpr std::size_t kMostAlternatives = 2;
 constexpr std::size_t kMostMismatches = 6;
 constexpr Index kSeriesPoints = 400;
@@ -151,7 +153,8 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.parameters =
         parameters_of(a.trial, frame, s.final.fit.model.coefficients[s.immaterial.size() + i]);
     cause.alternatives = ids_of(a.rivals, kMostAlternatives);
-    cause.evidence.score_p_value = std::exp(-0.5 * std::min(a.trial.gain, 600.0));
+    cause.evidence.score_p_value = boost::math::gamma_q(
+        0.5 * a.trial.parameters, 0.5 * std::min(a.trial.gain, kLargestChiSquare));
     cause.evidence.delta_bic = -a.trial.net_gain;
     cause.evidence.holdout_rmse_ratio = proof.cause_ratio[i];
     cause.evidence.ablation_ratio = 1.0 / proof.cause_ratio[i];

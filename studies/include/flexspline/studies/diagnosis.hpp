@@ -24,8 +24,8 @@ struct Mismatch {
   std::string recording;
   double from_s = kNotComputed;
   double to_s = kNotComputed;
-  std::string coordinate;  ///< time, torsion, velocity, acceleration, motor_angle, load_angle, load,
-                           ///< lag, reversal_memory, temperature, constant
+  std::string coordinate;  ///< time, torsion, velocity, acceleration, motor_angle, load_angle,
+                           ///< load, lag, reversal_memory, temperature, constant
   std::string equation;    ///< torsion, load, motor, drive: whose residual shows it
   double share_of_excess = kNotComputed;  ///< of the misfit beyond noise that the coordinate orders
   std::string says;
@@ -40,6 +40,8 @@ struct CauseParameter {
 
 /// What speaks for a cause, all on recordings.
 struct CauseEvidence {
+  /// Of a chi square as large as its gain, over as many degrees of freedom as it has parameters,
+  /// were there only noise; the search over causes is not counted (delta_bic counts it).
   double score_p_value = kNotComputed;
   double holdout_rmse_ratio = kNotComputed;  ///< with it over without it, on recordings held out
   double delta_bic = kNotComputed;           ///< with it minus without it; negative favours it
@@ -50,6 +52,8 @@ struct CauseEvidence {
 /// An effect that was left out of the baseline.
 struct Cause {
   std::string effect;
+  /// Share among the causes tried, net gains taken as log likelihoods and quartered; not
+  /// calibrated.
   double probability = kNotComputed;
   double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
   std::string equation;
@@ -69,8 +73,8 @@ struct Confusable {
 /// A candidate that was tried, and why it was not accepted.
 struct TriedCandidate {
   std::string effect;
-  int round = 0;  ///< 1: first name sought
-  double misfit_removed = kNotComputed;  ///< share of the explainable misfit
+  int round = 0;                         ///< 1: first name sought
+  double misfit_removed = kNotComputed;  ///< share of the misfit beyond noise, at most 1
   double delta_bic = kNotComputed;
   double holdout_rmse_ratio = kNotComputed;
   std::string outcome;  ///< accepted, or the reason for the rejection in words
