@@ -30,14 +30,15 @@ double angle_at(std::span<const double> time, std::size_t i, double period) {
   return 2.0 * std::numbers::pi * (time[i] - time.front()) / period;
 }
 
-// Triangular factor of the harmonics with the samples as their last column, chunk by chunk: a long
+// Triangular factor of the harmonics with the signals as their last columns, chunk by chunk: a long
 // record has as many rows as samples, but never needs all of them at once.
-Eigen::MatrixXd triangular_factor(std::span<const double> time, std::span<const double> samples,
+Eigen::MatrixXd triangular_factor(std::span<const double> time, std::span<const Sampled> signals,
                                   double period, Eigen::Index order) {
   constexpr std::size_t kChunk = 2048;
-  const Eigen::Index columns = 2 * order + 2;
+  const Eigen::Index harmonics = 2 * order + 1;
+  const Eigen::Index columns = harmonics + static_cast<Eigen::Index>(signals.size());
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::VectorXd row(columns - 1);
+  Eigen::VectorXd row(harmonics);
   for (std::size_t first = 0; first < time.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, time.size() - first);
     Eigen::MatrixXd stacked(columns + static_cast<Eigen::Index>(count), columns);
@@ -45,8 +46,10 @@ Eigen::MatrixXd triangular_factor(std::span<const double> time, std::span<const 
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Index at = columns + static_cast<Eigen::Index>(i);
       fill_harmonics(angle_at(time, first + i, period), row);
-      stacked.row(at).head(columns - 1) = row;
-      stacked(at, columns - 1) = samples[first + i];
+      stacked.row(at).head(harmonics) = row;
+      for (std::size_t s = 0; s < signals.size(); ++s) {
+        stacked(at, harmonics + static_cast<Eigen::Index>(s)) = signals[s].samples[first + i];
+      }
     }
     const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(stacked);
     factor = stacked.topRows(columns).triangularView<Eigen::Upper>();
@@ -73,43 +76,46 @@ Eigen::Index best_order(const Eigen::VectorXd& rotated, double total, Eigen::Ind
   return order;
 }
 
-}  // namespace
+// Coefficients of one signal, with what choosing them cost.
+struct Series {
+  Eigen::VectorXd coefficients;
+  double noise = 0.0;
+  double freedom = 0.0;
+};
 
-SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const double> samples,
-                                 double period, Harmonics kept) {
-  const auto n = static_cast<Eigen::Index>(time.size());
-  const double per_cycle = static_cast<double>(n) * period / (time.back() - time.front());
-  const Eigen::Index most = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(per_cycle / 6.0), 1,
-                                                     std::min(kMostHarmonics, (n - 2) / 4));
-  const Eigen::MatrixXd factor = triangular_factor(time, samples, period, most);
-  const Eigen::VectorXd rotated = factor.col(2 * most + 1).head(2 * most + 1);
-  const double total = factor.col(2 * most + 1).squaredNorm();
+// rotated: the signal's column of the triangular factor.
+Series series_of(const Eigen::MatrixXd& factor, const Eigen::VectorXd& rotated, Eigen::Index most,
+                 Eigen::Index n, Harmonics kept) {
   const bool choose = kept == Harmonics::significant;
-  const Eigen::Index order = choose ? best_order(rotated, total, n, most) : most;
-
+  const Eigen::Index order = choose ? best_order(rotated, rotated.squaredNorm(), n, most) : most;
   const Eigen::Index used = 2 * order + 1;
-  Eigen::VectorXd c =
-      factor.topLeftCorner(used, used).triangularView<Eigen::Upper>().solve(rotated.head(used));
-  const double left = factor.col(2 * most + 1).tail(2 * most + 2 - used).norm();
-  const double noise = left / std::sqrt(static_cast<double>(n - used));
-  const double error = noise * std::sqrt(2.0 / static_cast<double>(n));
-  Eigen::Index freedom = used;
+  Series series;
+  Eigen::VectorXd& c = series.coefficients;
+  c = factor.topLeftCorner(used, used).triangularView<Eigen::Upper>().solve(rotated.head(used));
+  series.noise =
+      rotated.tail(rotated.size() - used).norm() / std::sqrt(static_cast<double>(n - used));
+  const double error = series.noise * std::sqrt(2.0 / static_cast<double>(n));
+  series.freedom = static_cast<double>(used);
   for (Eigen::Index k = 2; choose && k <= order; ++k) {
     if (std::hypot(c[2 * k - 1], c[2 * k]) >= kSignificance * error) continue;
     c.segment(2 * k - 1, 2).setZero();
-    freedom -= 2;
+    series.freedom -= 2.0;
   }
+  return series;
+}
 
-  const auto size = static_cast<std::size_t>(n);
+SmoothSignal signal_of(const Series& series, std::span<const double> time, double period) {
+  const std::size_t size = time.size();
+  const Eigen::VectorXd& c = series.coefficients;
   const std::vector<double> empty(size);
-  const double share = static_cast<double>(freedom) / static_cast<double>(n);
-  SmoothSignal signal{empty, empty, empty, noise,
-                      std::vector<double>(size, noise * std::sqrt(share))};
-  Eigen::VectorXd row(used);
+  const double share = series.freedom / static_cast<double>(size);
+  SmoothSignal signal{empty, empty, empty, series.noise,
+                      std::vector<double>(size, series.noise * std::sqrt(share))};
+  Eigen::VectorXd row(c.size());
   for (std::size_t i = 0; i < size; ++i) {
     fill_harmonics(angle_at(time, i, period), row);
     signal.value[i] = c[0];
-    for (Eigen::Index k = 1; k <= order; ++k) {
+    for (Eigen::Index k = 1; 2 * k < c.size(); ++k) {
       const double w = 2.0 * std::numbers::pi * static_cast<double>(k) / period;
       const double in_phase = row[2 * k - 1];
       const double quadrature = row[2 * k];
@@ -120,6 +126,24 @@ SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const d
     }
   }
   return signal;
+}
+
+}  // namespace
+
+std::vector<SmoothSignal> smooth_by_harmonics(std::span<const double> time,
+                                              std::span<const Sampled> signals, double period) {
+  const auto n = static_cast<Eigen::Index>(time.size());
+  const double per_cycle = static_cast<double>(n) * period / (time.back() - time.front());
+  const Eigen::Index most = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(per_cycle / 6.0), 1,
+                                                     std::min(kMostHarmonics, (n - 2) / 4));
+  const Eigen::MatrixXd factor = triangular_factor(time, signals, period, most);
+  std::vector<SmoothSignal> smooth;
+  for (const Sampled& signal : signals) {
+    const auto column = 2 * most + 1 + static_cast<Eigen::Index>(smooth.size());
+    const Series series = series_of(factor, factor.col(column), most, n, signal.kept);
+    smooth.push_back(signal_of(series, time, period));
+  }
+  return smooth;
 }
 
 }  // namespace flexspline

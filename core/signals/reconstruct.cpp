@@ -22,36 +22,48 @@ struct Segment {
   std::size_t last;
 };
 
-SmoothSignal spline_over(std::span<const double> time, std::span<const double> samples,
-                         Segment segment) {
+using Signals = std::vector<SmoothSignal>;
+
+Signals splines_over(const TorsionRecord& record, Segment segment) {
   const std::size_t length = segment.last - segment.first;
-  return smooth_by_spline(time.subspan(segment.first, length),
-                          samples.subspan(segment.first, length));
+  const auto part = [&](std::span<const double> whole) {
+    return whole.subspan(segment.first, length);
+  };
+  const std::span<const double> signals[] = {part(record.motion), part(record.effort)};
+  return smooth_by_splines(part(record.time), signals);
+}
+
+// A motion is differentiated and has few harmonics; an effort has kinks, which must not be rounded.
+Signals harmonics_over(const TorsionRecord& record, const SteadyPart& steady) {
+  const auto part = [&](std::span<const double> whole) {
+    return whole.subspan(steady.first, steady.last - steady.first);
+  };
+  const Sampled signals[] = {{part(record.motion), Harmonics::significant},
+                             {part(record.effort), Harmonics::all}};
+  return smooth_by_harmonics(part(record.time), signals, steady.period);
 }
 
 // Adds a part of the record to the whole with a weight for every instant.
 template <class Weight>
-void add(SmoothSignal& whole, const SmoothSignal& part, std::size_t offset, const Weight& weight) {
-  for (std::size_t j = 0; j < part.value.size(); ++j) {
-    const double w = weight(offset + j);
-    whole.value[offset + j] += w * part.value[j];
-    whole.rate[offset + j] += w * part.rate[j];
-    whole.second[offset + j] += w * part.second[j];
-    whole.error[offset + j] += w * part.error[j];
+void add(Signals& whole, const Signals& part, std::size_t offset, const Weight& weight) {
+  for (std::size_t s = 0; s < whole.size(); ++s) {
+    for (std::size_t j = 0; j < part[s].value.size(); ++j) {
+      const double w = weight(offset + j);
+      whole[s].value[offset + j] += w * part[s].value[j];
+      whole[s].rate[offset + j] += w * part[s].rate[j];
+      whole[s].second[offset + j] += w * part[s].second[j];
+      whole[s].error[offset + j] += w * part[s].error[j];
+    }
   }
 }
 
-// The steady part by its harmonics, what is before and after by splines; they meet over a quarter
-// of a cycle inside the steady part.
-SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples,
-                    const std::optional<SteadyPart>& steady, Harmonics kept) {
-  const std::span<const double> time(record.time);
+// Motion and effort: the steady part by its harmonics, what is before and after by splines; they
+// meet over a quarter of a cycle inside the steady part.
+Signals smooth(const TorsionRecord& record, const std::optional<SteadyPart>& steady) {
+  const std::vector<double>& time = record.time;
   const std::size_t n = time.size();
-  if (!steady) return smooth_by_spline(time, samples);
-  const std::size_t length = steady->last - steady->first;
-  const auto periodic =
-      smooth_by_harmonics(time.subspan(steady->first, length),
-                          samples.subspan(steady->first, length), steady->period, kept);
+  if (!steady) return splines_over(record, {0, n});
+  const Signals periodic = harmonics_over(record, *steady);
   const double begins = time[steady->first];
   const double ends = time[steady->last - 1];
   const double overlap = 0.25 * steady->period;
@@ -63,19 +75,21 @@ SmoothSignal smooth(const TorsionRecord& record, std::span<const double> samples
     return std::min(rise, fall);
   };
   const std::vector<double> zero(n, 0.0);
-  SmoothSignal whole{zero, zero, zero, periodic.noise, zero};
+  Signals whole;
+  for (const SmoothSignal& signal : periodic)
+    whole.push_back({zero, zero, zero, signal.noise, zero});
   add(whole, periodic, steady->first, weight);
   const auto reaches = [&](double t) {
     return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
   };
   if (before) {
     const std::size_t last = std::clamp(reaches(begins + 2.0 * overlap), std::min(n, kFewest), n);
-    add(whole, spline_over(time, samples, {0, last}), 0,
+    add(whole, splines_over(record, {0, last}), 0,
         [&](std::size_t i) { return time[i] < begins + overlap ? 1.0 - weight(i) : 0.0; });
   }
   if (after) {
     const std::size_t first = std::min(reaches(ends - 2.0 * overlap), n - std::min(n, kFewest));
-    add(whole, spline_over(time, samples, {first, n}), first,
+    add(whole, splines_over(record, {first, n}), first,
         [&](std::size_t i) { return time[i] > ends - overlap ? 1.0 - weight(i) : 0.0; });
   }
   return whole;
@@ -101,10 +115,9 @@ Result<Reconstruction> reconstruct_with(const TorsionRecord& record,
   }
   Reconstruction result;
   result.steady = steady;
-  // A motion is differentiated and has few harmonics; an effort has kinks, which must not be
-  // rounded.
-  auto motion = smooth(record, record.motion, result.steady, Harmonics::significant);
-  auto effort = smooth(record, record.effort, result.steady, Harmonics::all);
+  Signals signals = smooth(record, steady);
+  SmoothSignal& motion = signals[0];
+  SmoothSignal& effort = signals[1];
   result.motion = {.time = record.time,
                    .position = std::move(motion.value),
                    .velocity = std::move(motion.rate),

@@ -19,6 +19,10 @@ struct SmoothSignal {
 /// cross-validation with a stochastic trace. 16 samples or more.
 SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples);
 
+/// The same of several signals sampled at the same instants, whose equations are shared.
+std::vector<SmoothSignal> smooth_by_splines(std::span<const double> time,
+                                            std::span<const std::span<const double>> signals);
+
 /// Which harmonics a smooth signal keeps.
 enum class Harmonics {
   significant,  ///< order by the Bayesian information criterion, those below four standard errors
@@ -26,8 +30,14 @@ enum class Harmonics {
   all,          ///< up to the 40th or a sixth of the samples of a cycle: noisier, not biased
 };
 
-/// Fourier series of the period given.
-SmoothSignal smooth_by_harmonics(std::span<const double> time, std::span<const double> samples,
-                                 double period, Harmonics kept);
+/// A signal, and what is kept of it.
+struct Sampled {
+  std::span<const double> samples;
+  Harmonics kept;
+};
+
+/// Fourier series of the period given, of signals sampled at the same instants.
+std::vector<SmoothSignal> smooth_by_harmonics(std::span<const double> time,
+                                              std::span<const Sampled> signals, double period);
 
 }  // namespace flexspline

@@ -46,34 +46,9 @@ Sparse third_differences(int size) {
 
 struct Penalised {
   Eigen::VectorXd coefficients;
-  double score = 0.0;
+  double score = std::numeric_limits<double>::infinity();
   double freedom = 0.0;
 };
-
-// The parts of the penalised equations that are the same for every penalty.
-struct Equations {
-  Sparse basis;
-  Sparse normal;
-  Sparse roughness;
-  Eigen::VectorXd samples;
-  Eigen::MatrixXd right;  // products of the basis with the samples, then with random signs
-  BandedSolver solver{};
-};
-
-// Generalised cross-validation score of one penalty; the trace by random signs (Hutchinson).
-Penalised penalised_fit(Equations& equations, double penalty) {
-  equations.solver.factorize(equations.normal + penalty * equations.roughness);
-  const Eigen::MatrixXd solved = equations.solver.solve(equations.right);
-  Penalised fit;
-  fit.coefficients = solved.col(0);
-  fit.freedom =
-      equations.right.rightCols(kProbes).cwiseProduct(solved.rightCols(kProbes)).sum() / kProbes;
-  const double n = static_cast<double>(equations.samples.size());
-  const double left = std::max(n - fit.freedom, 1.0);
-  const Eigen::VectorXd rest = equations.samples - equations.basis * fit.coefficients;
-  fit.score = rest.squaredNorm() * n / (left * left);
-  return fit;
-}
 
 Eigen::MatrixXd random_signs(Eigen::Index rows) {
   std::mt19937_64 engine(20031);
@@ -82,49 +57,98 @@ Eigen::MatrixXd random_signs(Eigen::Index rows) {
   return signs;
 }
 
-}  // namespace
+// The parts of the penalised equations that are the same for every penalty. The signals share them:
+// only their right sides differ.
+struct Equations {
+  Equations(std::span<const double> time, const CubicBasis& splines,
+            std::span<const std::span<const double>> signals);
 
-SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples) {
-  const std::size_t n = time.size();
-  const std::size_t intervals = std::clamp<std::size_t>(n / kSamplesPerInterval, 4, kMostIntervals);
-  const CubicBasis basis(time.front(), time.back(), intervals);
-  const Sparse differences = third_differences(static_cast<int>(basis.size()));
-  Equations equations{
-      .basis = design(time, basis),
-      .normal = {},
-      .roughness = differences.transpose() * differences,
-      .samples = Eigen::Map<const Eigen::VectorXd>(samples.data(), static_cast<Eigen::Index>(n)),
-      .right = {}};
-  equations.normal = equations.basis.transpose() * equations.basis;
-  equations.right.resize(static_cast<Eigen::Index>(basis.size()), 1 + kProbes);
-  equations.right.col(0) = equations.basis.transpose() * equations.samples;
-  equations.right.rightCols(kProbes) =
-      equations.basis.transpose() * random_signs(equations.samples.size());
-  equations.solver.analyzePattern(equations.normal + equations.roughness);
+  Sparse basis;
+  Sparse normal;
+  Sparse roughness;
+  Eigen::MatrixXd samples;  // a column a signal
+  Eigen::MatrixXd right;    // products of the basis with the samples, then with random signs
+  BandedSolver solver;
+};
 
-  Penalised best;
-  best.score = std::numeric_limits<double>::infinity();
-  for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
-    auto fit = penalised_fit(equations, std::pow(10.0, exponent));
-    if (fit.score < best.score) best = std::move(fit);
+Equations::Equations(std::span<const double> time, const CubicBasis& splines,
+                     std::span<const std::span<const double>> signals)
+    : basis(design(time, splines)), normal(basis.transpose() * basis) {
+  const Sparse differences = third_differences(static_cast<int>(splines.size()));
+  roughness = differences.transpose() * differences;
+  const auto rows = static_cast<Eigen::Index>(time.size());
+  const auto count = static_cast<Eigen::Index>(signals.size());
+  samples.resize(rows, count);
+  right.resize(basis.cols(), count + kProbes);
+  for (Eigen::Index s = 0; s < count; ++s) {
+    const auto& signal = signals[static_cast<std::size_t>(s)];
+    samples.col(s) = Eigen::Map<const Eigen::VectorXd>(signal.data(), rows);
+    right.col(s) = basis.transpose() * samples.col(s);
   }
+  right.rightCols(kProbes) = basis.transpose() * random_signs(rows);
+  solver.analyzePattern(normal + roughness);
+}
 
+// Generalised cross-validation of one penalty; the trace by random signs (Hutchinson). Keeps it for
+// the signals whose best it is.
+void try_penalty(Equations& equations, double penalty, std::vector<Penalised>& best) {
+  equations.solver.factorize(equations.normal + penalty * equations.roughness);
+  const Eigen::MatrixXd solved = equations.solver.solve(equations.right);
+  const double freedom =
+      equations.right.rightCols(kProbes).cwiseProduct(solved.rightCols(kProbes)).sum() / kProbes;
+  const double n = static_cast<double>(equations.samples.rows());
+  const double left = std::max(n - freedom, 1.0);
+  for (std::size_t s = 0; s < best.size(); ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    const Eigen::VectorXd coefficients = solved.col(column);
+    const Eigen::VectorXd rest = equations.samples.col(column) - equations.basis * coefficients;
+    const double score = rest.squaredNorm() * n / (left * left);
+    if (score < best[s].score) best[s] = {coefficients, score, freedom};
+  }
+}
+
+SmoothSignal signal_of(const Penalised& fit, const CubicBasis& basis, std::span<const double> time,
+                       std::span<const double> samples) {
+  const std::size_t n = time.size();
   SmoothSignal signal{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n), 0.0};
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const auto local = basis.at(time[i]);
     for (std::size_t k = 0; k < 4; ++k) {
-      const double c = best.coefficients[static_cast<Eigen::Index>(local.first + k)];
+      const double c = fit.coefficients[static_cast<Eigen::Index>(local.first + k)];
       signal.value[i] += c * local.value[k];
       signal.rate[i] += c * local.slope[k];
       signal.second[i] += c * local.curvature[k];
     }
     sum += (samples[i] - signal.value[i]) * (samples[i] - signal.value[i]);
   }
-  const double left = std::max(static_cast<double>(n) - best.freedom, 1.0);
+  const double left = std::max(static_cast<double>(n) - fit.freedom, 1.0);
   signal.noise = std::sqrt(sum / left);
-  signal.error.assign(n, signal.noise * std::sqrt(best.freedom / static_cast<double>(n)));
+  signal.error.assign(n, signal.noise * std::sqrt(fit.freedom / static_cast<double>(n)));
   return signal;
+}
+
+}  // namespace
+
+std::vector<SmoothSignal> smooth_by_splines(std::span<const double> time,
+                                            std::span<const std::span<const double>> signals) {
+  const std::size_t intervals =
+      std::clamp<std::size_t>(time.size() / kSamplesPerInterval, 4, kMostIntervals);
+  const CubicBasis basis(time.front(), time.back(), intervals);
+  Equations equations(time, basis, signals);
+  std::vector<Penalised> best(signals.size());
+  for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
+    try_penalty(equations, std::pow(10.0, exponent), best);
+  }
+  std::vector<SmoothSignal> smooth;
+  for (std::size_t s = 0; s < signals.size(); ++s) {
+    smooth.push_back(signal_of(best[s], basis, time, signals[s]));
+  }
+  return smooth;
+}
+
+SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples) {
+  return std::move(smooth_by_splines(time, std::span(&samples, 1)).front());
 }
 
 }  // namespace flexspline
