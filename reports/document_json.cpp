@@ -1,5 +1,6 @@
 #include "document_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kDrawnDigits = 4;  ///< a 2000-pixel picture shows no more
+
+/// What moves little about a large value needs the more digits.
+std::vector<double> drawn(const std::vector<double>& values, int more = 0) {
+  double lower = HUGE_VAL, upper = -HUGE_VAL;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    lower = std::min(lower, value);
+    upper = std::max(upper, value);
+  }
+  const double offset = std::max(std::abs(lower), std::abs(upper)) / (upper - lower);
+  if (std::isfinite(offset) && offset > 2.0) more += static_cast<int>(std::log10(offset)) + 1;
+  return rounded(values, kDrawnDigits + std::min(more, 9));
+}
 
 Json axis_json(const Axis& axis) {
   Json json = {{"label", axis.label}};
@@ -28,11 +42,11 @@ Json series_json(const Series& series, const std::vector<double>& x_before) {
                {"style", series.style},
                {"role", series.role.name},
                {"rank", series.role.rank}};
-  if (series.x != x_before) json["x"] = rounded(series.x, kDrawnDigits + 1);
-  json["y"] = rounded(series.y, kDrawnDigits);
+  if (series.x != x_before) json["x"] = drawn(series.x, 1);
+  json["y"] = drawn(series.y);
   if (!series.lower.empty()) {
-    json["lower"] = rounded(series.lower, kDrawnDigits);
-    json["upper"] = rounded(series.upper, kDrawnDigits);
+    json["lower"] = drawn(series.lower);
+    json["upper"] = drawn(series.upper);
   }
   return json;
 }

@@ -9,6 +9,7 @@
 #include "flexspline/reports/trial_view.hpp"
 #include "lock_file.hpp"
 #include "page.hpp"
+#include "static_figures.hpp"
 
 namespace flexspline::reports {
 namespace {
@@ -110,6 +111,9 @@ Result<fs::path> write_report(const fs::path& folder) {
       write_tables(folder / "tables", document)
           .and_then(
               [&] { return write_file(folder / "report" / "report.json", report_json(document)); })
+          .and_then([&] {
+            return write_static_figures(folder / "report" / "figures", figures_json(document));
+          })
           .and_then([&] { return write_file(page, page_of(document)); });
   if (!written) return tl::unexpected(in_context(written.error(), "report"));
   return page;

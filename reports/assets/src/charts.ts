@@ -16,7 +16,7 @@ import {
 import { SVGRenderer } from "echarts/renderers";
 
 import type { Figure, Panel } from "./document";
-import { heatmapOption } from "./heatmap";
+import { heatmapOption, wideExtent } from "./heatmap";
 import { linesOption } from "./lines";
 
 use([
@@ -26,11 +26,31 @@ use([
 
 export type Chart = EChartsType;
 
+const optionOf = (panel: Panel, figure: Figure, width: number) =>
+  figure.kind === "heatmap" ? heatmapOption(panel, figure) : linesOption(panel, width);
+
 export function drawChart(element: HTMLElement, panel: Panel, figure: Figure): Chart {
   const chart = init(element, undefined, { renderer: "svg" });
-  chart.setOption(figure.kind === "heatmap" ? heatmapOption(panel, figure) : linesOption(panel));
+  chart.setOption(optionOf(panel, figure, element.clientWidth));
   chart.group = figure.id;
   return chart;
+}
+
+/** The same picture as text, where there is no page to draw it on. */
+export function chartText(panel: Panel, figure: Figure, width: number, height: number): string {
+  const chart = init(null, undefined, { renderer: "svg", ssr: true, width, height });
+  chart.setOption(optionOf(panel, figure, width));
+  const text = chart.renderToSVGString();
+  chart.dispose();
+  return text;
+}
+
+/** Height that a panel's rows need, and the least width of long names; none: any will do. */
+export function extentOf(panel: Panel, figure: Figure): { width?: number; height?: number } {
+  const wide = figure.kind === "heatmap" ? wideExtent(panel) : undefined;
+  if (wide) return wide;
+  const rows = panel.y.categories?.length ?? 0;
+  return rows > 0 ? { height: 110 + rows * (figure.kind === "heatmap" ? 38 : 26) } : {};
 }
 
 /** Hiding a series in one panel hides it in the others. */

@@ -79,9 +79,8 @@ function derive(figure: Figure, all: Record<string, Figure>): void {
   }));
 }
 
-export function readFigures(): Record<string, Figure> {
-  const element = document.getElementById("figures");
-  const all: Record<string, Figure> = JSON.parse(element?.textContent ?? "{}");
+export function readFigures(text: string): Record<string, Figure> {
+  const all: Record<string, Figure> = JSON.parse(text);
   Object.values(all).forEach(shareX);
   Object.values(all).forEach((figure) => derive(figure, all));
   return all;

@@ -2,6 +2,7 @@
 
 import type { Cell, Figure, Panel } from "./document";
 import { escapeHtml, shown } from "./numbers";
+import { screenWidth } from "./screen";
 import { heatColours, inkOn, kFont, kTooltipCss, theme } from "./theme";
 
 type Option = Record<string, any>;
@@ -40,13 +41,13 @@ function tooltipText(panel: Panel, item: any, unit: string): string {
 function isWide(panel: Panel): boolean {
   const names = panel.x.categories ?? [];
   const longest = Math.max(0, ...names.map((name) => Math.min(name.length, 24)));
-  return names.length * (6.2 * longest + 8) > Math.min(window.innerWidth, 1240) - 220;
+  return names.length * (6.2 * longest + 8) > Math.min(screenWidth(), 1240) - 220;
 }
 
-export function fitHeatmap(place: HTMLElement, panel: Panel): void {
-  if (!isWide(panel)) return;
-  place.style.minWidth = `${200 + 34 * panel.x.categories!.length}px`;
-  place.style.height = `${230 + 30 * (panel.y.categories?.length ?? 0)}px`;
+/** Least width and height that such names need; none where any place will do. */
+export function wideExtent(panel: Panel): { width: number; height: number } | undefined {
+  if (!isWide(panel)) return undefined;
+  return { width: 200 + 34 * panel.x.categories!.length, height: 230 + 30 * (panel.y.categories?.length ?? 0) };
 }
 
 function axisOption(label: string, categories: string[] | undefined, gap: number, rotate = 0): Option {
@@ -61,7 +62,7 @@ function axisOption(label: string, categories: string[] | undefined, gap: number
     axisLine: { show: false },
     axisTick: { show: false },
     splitLine: { show: false },
-    axisLabel: { color: colours.text, fontSize: 11, interval: 0, rotate, width: window.innerWidth < 600 && !rotate ? 90 : 160, overflow: "truncate" },
+    axisLabel: { color: colours.text, fontSize: 11, interval: 0, rotate, width: screenWidth() < 600 && !rotate ? 90 : 160, overflow: "truncate" },
   };
 }
 

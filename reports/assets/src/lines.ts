@@ -2,6 +2,7 @@
 
 import type { Axis, Panel, Series } from "./document";
 import { escapeHtml, shown, tick } from "./numbers";
+import { onPaper, screenWidth } from "./screen";
 import { colourOf, dashOf, isReference, kFont, kTooltipCss, symbolOf, theme, widthOf } from "./theme";
 
 type Option = Record<string, any>;
@@ -113,7 +114,7 @@ function logRange(axis: Axis, values: number[]): Option {
 /** As wide as the longest name, within reason. */
 function categoryWidth(categories: string[]): number {
   const longest = Math.max(...categories.map((name) => name.length));
-  return Math.min(window.innerWidth < 600 ? 96 : 230, Math.max(96, 6.2 * longest));
+  return Math.min(screenWidth() < 600 ? 96 : 230, Math.max(96, 6.2 * longest));
 }
 
 function axisOption(axis: Axis, values: number[], other: Option): Option {
@@ -164,15 +165,30 @@ function tooltipText(panel: Panel, items: any[]): string {
   return `<b>${head}</b><br>${escapeHtml(panel.y.categories ? "" : panel.y.label)}<table>${values.join("")}</table>`;
 }
 
+export const kLegendRow = 30;
+
+/** On paper every name is written, on as many rows as that takes; on a screen the legend scrolls. */
+export function legendRows(panel: Panel, width: number): number {
+  if (!onPaper() || panel.cells) return 1;
+  let rows = 1;
+  let used = 0;
+  for (const one of panel.series.filter((series) => series.style !== "band")) {
+    const needed = (panel.y.categories ? 46 : 64) + 7 * one.name.length;
+    if (used > 0 && used + needed > width) [rows, used] = [rows + 1, 0];
+    used += needed;
+  }
+  return rows;
+}
+
 function legendOption(panel: Panel): Option {
   const colours = theme();
   const shownOnes = panel.series.filter((one) => one.style !== "band");
   return {
     bottom: 0,
-    type: "scroll",
+    type: onPaper() ? "plain" : "scroll",
     data: shownOnes.map((one) => ({ name: one.name, itemStyle: hasSymbols(one) ? {} : { opacity: 0 } })),
     textStyle: { color: colours.text },
-    itemGap: 16,
+    itemGap: onPaper() ? 18 : 16,
     itemWidth: panel.y.categories ? 12 : 30,
     itemHeight: 10,
     pageIconColor: colours.text,
@@ -182,7 +198,8 @@ function legendOption(panel: Panel): Option {
   };
 }
 
-export function linesOption(panel: Panel): Option {
+/** For a place of that width. */
+export function linesOption(panel: Panel, width: number): Option {
   const colours = theme();
   const overCategories = Boolean(panel.y.categories);
   const series = seriesOptions(panel);
@@ -193,7 +210,7 @@ export function linesOption(panel: Panel): Option {
   return {
     animation: false,
     textStyle: { color: colours.text, fontFamily: kFont },
-    grid: { left: panel.y.categories ? categoryWidth(panel.y.categories) + 12 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74, outerBoundsMode: "none" },
+    grid: { left: panel.y.categories ? categoryWidth(panel.y.categories) + 12 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74 + kLegendRow * (legendRows(panel, width) - 1), outerBoundsMode: "none" },
     legend: legendOption(panel),
     tooltip: {
       trigger: overCategories ? "item" : "axis",

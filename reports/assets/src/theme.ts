@@ -2,6 +2,7 @@
 // that a grey print can be read.
 
 import type { Series } from "./document";
+import { isDark } from "./screen";
 
 export interface Theme {
   text: string;
@@ -23,31 +24,16 @@ const kDark: Theme = {
 const kPaletteLight = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#B98A00", "#3B93C4", "#8A6D3B"];
 const kPaletteDark = ["#FF8A3D", "#56B4E9", "#2FCB9C", "#E59BC4", "#F0C419", "#7FC7EE", "#C7A56B"];
 const kDashes: (string | number[])[] = ["solid", [9, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2], [12, 6]];
-const kSymbols = ["circle", "diamond", "triangle", "rect", "pin", "roundRect", "arrow"];
+const kSymbols = ["circle", "diamond", "triangle", "rect", "emptyCircle", "roundRect", "arrow"];
 
 /** Named, because the library measures text with it. */
-export const kFont = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif';
+export const kFont = "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', 'DejaVu Sans', sans-serif";
 
 /** A tooltip is never wider than its chart, nor than a phone. */
 export const kTooltipCss = "white-space: normal; max-width: min(100%, 340px)";
 
-const dark = window.matchMedia("(prefers-color-scheme: dark)");
-let printing = false;
-
-export function setPrinting(on: boolean): void {
-  printing = on;
-}
-
-export function isDark(): boolean {
-  return dark.matches && !printing;
-}
-
 export function theme(): Theme {
   return isDark() ? kDark : kLight;
-}
-
-export function onThemeChange(then: () => void): void {
-  dark.addEventListener("change", then);
 }
 
 const cycled = <T>(list: T[], rank: number): T => list[rank % list.length];
@@ -75,7 +61,7 @@ export function isReference(series: Series): boolean {
 }
 
 export function symbolOf(series: Series): string {
-  return cycled(kSymbols, series.rank);
+  return cycled(kSymbols, series.rank + Math.floor(series.rank / kPaletteLight.length));
 }
 
 /** Cividis: dark is small, bright is large; the same order in grey and for every kind of sight. */
