@@ -89,6 +89,7 @@ Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveCon
     }
     if (auto good = check(**row, *values, closed_loop); !good) return tl::unexpected(good.error());
     use.follows_torsion = depends_on(**row, *values, &Instant<Complex>::torsion);
+    use.follows_torque = depends_on(**row, *values, &Instant<Complex>::transmitted_torque);
     use.follows_motor = term_depends_on(**row, *values, &Instant<Complex>::motor_angle);
     use.follows_load = term_depends_on(**row, *values, &Instant<Complex>::load_angle);
     if ((*row)->site == Site::kinematics) {

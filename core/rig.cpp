@@ -97,7 +97,7 @@ const RigRow& rig_row(Rig rig) {
 
 Result<const RigForm*> checked_form(const RigRow& row, const DriveSpec& drive,
                                     const RigInputs& inputs, std::string_view form,
-                                    std::initializer_list<std::string_view> positive) {
+                                    const std::vector<std::string_view>& positive) {
   const auto found =
       form.empty() ? row.forms.begin() : std::ranges::find(row.forms, form, &RigForm::id);
   if (found == row.forms.end()) {

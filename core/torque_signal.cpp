@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "flexspline/core/effect_path.hpp"
 #include "rigs/drive_at.hpp"
 
@@ -76,8 +78,13 @@ class TorqueAlong {
         append(piece.at(turning_time(piece, before.time, after.time)), memory);
       }
       append(after, memory);
+      if (lost_ != nullptr) return;
     }
   }
+
+  /// The first effect whose memory no steps could follow, and how far it had come.
+  const EffectRow* lost() const { return lost_; }
+  double reached() const { return knots_.back().point.time; }
 
   double operator()(double t) const {
     const auto after = std::ranges::upper_bound(knots_, t, {}, &Knot::time);
@@ -115,11 +122,12 @@ class TorqueAlong {
   }
 
   void append(const Point& point, std::vector<double>& memory) {
-    if (!knots_.empty()) advance(knots_.back().point, point, memory);
-    knots_.push_back({point, memory});
+    if (!knots_.empty()) lost_ = advance(knots_.back().point, point, memory);
+    if (lost_ == nullptr) knots_.push_back({point, memory});
   }
 
-  void advance(const Point& from, const Point& to, std::vector<double>& memory) const {
+  // Gives the first effect whose memory no steps could follow.
+  const EffectRow* advance(const Point& from, const Point& to, std::vector<double>& memory) const {
     const DriveAt<double> at(model_, p_, memory);
     const auto before = seen(at, from);
     const auto after = seen(at, to);
@@ -128,37 +136,59 @@ class TorqueAlong {
       const auto states = std::span(memory).subspan(use.state, use.states);
       if (use.row->rate_independent) {
         use.row->real.advance(before, after, parameters_of(use), states);
-      } else {
-        integrate(use, at, from, to, states);
+      } else if (!integrate(use, at, from, to, states)) {
+        return use.row;
       }
     }
+    return nullptr;
   }
 
   std::span<const double> parameters_of(const EffectUse& use) const {
     return std::span(p_).subspan(use.parameter, use.parameters);
   }
 
-  // A memory that knows the clock follows the curve between the instants, not only its ends: four
-  // steps of Runge and Kutta's.
-  void integrate(const EffectUse& use, const DriveAt<double>& at, const Point& from,
+  // A memory that knows the clock follows the curve between the instants, not only its ends: by
+  // steps of Runge and Kutta's, twice as many until they agree. False where they never do.
+  bool integrate(const EffectUse& use, const DriveAt<double>& at, const Point& from,
                  const Point& to, std::span<double> states) const {
-    constexpr int kSteps = 4;
-    const double h = (to.time - from.time) / kSteps;
-    if (!(h > 0.0)) return;
+    constexpr int kMostSteps = 1 << 12;
+    if (!(to.time > from.time)) return true;
     const Quintic motion(from, to);
+    std::vector<double> last = runge_kutta(use, at, motion, from.time, to.time, states, 2);
+    for (int steps = 4; steps <= kMostSteps; steps *= 2) {
+      const auto next = runge_kutta(use, at, motion, from.time, to.time, states, steps);
+      bool agree = true;
+      for (std::size_t j = 0; j < next.size(); ++j) {
+        const double size = std::abs(states[j]) + std::abs(next[j]);
+        agree &= std::abs(next[j] - last[j]) <= 1e-11 * size;
+      }
+      last = next;
+      if (!agree) continue;
+      std::ranges::copy(last, states.begin());
+      return true;
+    }
+    return false;
+  }
+
+  std::vector<double> runge_kutta(const EffectUse& use, const DriveAt<double>& at,
+                                  const Quintic& motion, double from, double to,
+                                  std::span<const double> start, int steps) const {
+    const double h = (to - from) / steps;
+    std::vector<double> states(start.begin(), start.end());
     std::vector<double> k(states.size()), sum(states.size()), trial(states.size());
-    for (int n = 0; n < kSteps; ++n) {
+    for (int n = 0; n < steps; ++n) {
       std::ranges::fill(k, 0.0);
       std::ranges::fill(sum, 0.0);
       for (const auto& [ahead, weight] :
            {std::pair(0.0, 1.0), {0.5, 2.0}, {0.5, 2.0}, {1.0, 1.0}}) {
         for (std::size_t j = 0; j < trial.size(); ++j) trial[j] = states[j] + ahead * h * k[j];
-        const auto x = seen(at, motion.at(from.time + (n + ahead) * h));
+        const auto x = seen(at, motion.at(from + (n + ahead) * h));
         use.row->real.rate(x, parameters_of(use), trial, k);
         for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += weight * k[j];
       }
       for (std::size_t j = 0; j < sum.size(); ++j) states[j] += h / 6.0 * sum[j];
     }
+    return states;
   }
 
   double torque(const Point& point, const std::vector<double>& memory) const {
@@ -173,6 +203,7 @@ class TorqueAlong {
   DriveModel model_;
   std::vector<double> p_;
   std::vector<Knot> knots_;
+  const EffectRow* lost_ = nullptr;
 };
 
 }  // namespace
@@ -187,9 +218,16 @@ Result<Signal> torque_signal(const ModelSpec& model, const Motion& motion) {
     return failure(ErrorCode::bad_data,
                    "torque as a function of time: kinematics follow the torque, which is found "
                    "from sample to sample",
-                   "use simulate_torque, or take what yields in series out of the model");
+                   "simulate the specimen in its form displacement_driven, or use simulate_torque");
   }
   const auto along = std::make_shared<TorqueAlong>(std::move(*made), motion);
+  if (along->lost() != nullptr) {
+    return failure(ErrorCode::numerics,
+                   fmt::format("torque as a function of time: the memory of {} switches while it "
+                               "slips, and no steps follow it beyond {:.6g} s",
+                               along->lost()->id, along->reached()),
+                   "simulate the specimen in its form displacement_driven, or use simulate_torque");
+  }
   return Signal{[along](double t) { return (*along)(t); }, {}};
 }
 

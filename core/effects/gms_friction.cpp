@@ -51,10 +51,21 @@ struct MaxwellSlipStribeck {
     const double direction = v < 0.0 ? -1.0 : 1.0;
     for (std::size_t k = 0; k < z.size(); ++k) {
       const auto own = p.subspan(k * kGroup, kGroup);
-      const S beyond(S(direction * z[k]) - yield_at(x.motor_speed, own));
-      const bool slips = v != 0.0 && real_part(beyond) >= 0.0;
-      dz[k] = slips ? S(S(-direction * beyond) / own[4]) : x.motor_speed;
+      const S yield(yield_at(x.motor_speed, own));
+      const S beyond(S(direction * z[k]) - yield);
+      const S slipping(S(-direction * beyond) / own[4]);
+      dz[k] = S(x.motor_speed + slips(beyond, yield, v) * S(slipping - x.motor_speed));
     }
+  }
+
+  // From sticking (0) to slipping (1) over the last 1e-6 of the yield: while the yield rises with
+  // falling speed an element stays at it, which a switch would chatter around.
+  template <class S>
+  static S slips(const S& beyond, const S& yield, double speed) {
+    if (speed == 0.0) return S(0.0);
+    const S share(1.0 + S(beyond / S(1e-6 * yield)));
+    if (real_part(share) <= 0.0) return S(0.0);
+    return real_part(share) >= 1.0 ? S(1.0) : share;
   }
 };
 
@@ -69,7 +80,8 @@ EffectRow describe_gms_friction() {
           "tau_f += sum_i k_i z_i; sticks: z_i' = w; slips at |z_i| >= r_i(w) = r_i (1 + e_i "
           "exp(-(w/ws)^2)): z_i' = sgn(w) (r_i(w) - |z_i|)/T",
       .range =
-          "presliding and sliding; starts unloaded; closes minor loops at speeds well below ws",
+          "presliding and sliding; starts unloaded; closes minor loops at speeds well below ws; in "
+          "rigs an element begins to slip over the last 1e-6 of its yield",
       .not_modelled = "viscous share (the baseline's); yields that depend on load or temperature",
       .source = "Al-Bender, Lampaert, Swevers, IEEE TAC 50(11), 2005",
       .parameters = {{"stiffness", "Nm/rad", 0.0, 1e9, 3.0, "tc = 0.06 Nm over 20 mrad"},

@@ -49,7 +49,8 @@ EffectRow describe_play_backlash() {
       .equation = "phi_e = phi - b z/sqrt(z^2 + 1), T z = tau - s, s' = tau' unless |s| = T (play)",
       .range =
           "any torque; the joint starts in the middle of its gap; loses energy over each cycle; "
-          "its friction grows by T z' 10 us, so that it can be integrated",
+          "in rigs its friction grows by T z' 10 us, so that it can be integrated: motion and "
+          "torque undo each other there, and differ from the play of samples by that lag",
       .not_modelled = "impacts; a friction of the joint that depends on speed",
       .source = "Krasnosel'skii, Pokrovskii, Systems with Hysteresis (1989): play operator",
       .parameters = {{"half_gap", "rad", 0.0, 0.2, 1e-4, "Oldham coupling: 5 to 30 arcsec"},

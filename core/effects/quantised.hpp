@@ -27,7 +27,9 @@ inline void quantise_signal(std::span<const double>, std::span<double> signal,
 inline constexpr std::string_view kQuantisedRange =
     "any value; as white noise of q/sqrt(12) where the signal crosses many steps";
 inline constexpr std::string_view kQuantisedNotModelled =
-    "steps of unequal width; at an instant it counts as its mean, 0";
+    "steps of unequal width; at an instant it counts as its mean, 0; what lay within a step does "
+    "not "
+    "come back";
 
 /// The row of a quantised signal: what tells the signals apart, with the law they share.
 inline EffectRow quantisation(EffectRow row) {

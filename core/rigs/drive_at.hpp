@@ -202,13 +202,16 @@ class DriveAt {
   }
 
   // Sixth-order differences over a step that turns no shaft by more than 0.03 rad, twists by no
-  // more than 1.5e-6 rad where the term follows the torsion, and moves no memory, which kinematics
-  // hold in units of its own, by more than 0.003: 1e-9 of the rate or better.
+  // more than 1.5e-6 rad where the term follows the torsion, loads by no more than 0.003 Nm where
+  // it follows the torque, and moves no memory, which kinematics hold in units of its own, by more
+  // than 0.003: 1e-9 of the rate or better.
   S kinematic_rate(const EffectUse& use, const Instant<S>& x) const {
     const double fastest = std::abs(real_part(x.motor_speed)) + std::abs(real_part(x.load_speed));
     double step = 0.01 / (1.0 + fastest);
     const double twist = std::abs(real_part(x.torsion_rate));
     if (use.follows_torsion && twist * step > 5e-7) step = 5e-7 / twist;
+    const double loading = std::abs(real_part(x.transmitted_torque_rate));
+    if (use.follows_torque && loading * step > 1e-3) step = 1e-3 / loading;
     std::vector<S> memory_rates(use.states, S(0.0));
     if (use.states > 0) memory_rate(use, x, memory_rates);
     for (const S& one : memory_rates) {

@@ -18,6 +18,7 @@ struct EffectUse {
   std::size_t state = 0;
   std::size_t states = 0;
   bool follows_torsion = false;
+  bool follows_torque = false;
   bool follows_motor = false;  ///< its term, the angle of the motor
   bool follows_load = false;
 };

@@ -1,5 +1,5 @@
-#include "rigs/enter_transmission.hpp"
 #include "rigs/rig_parts.hpp"
+#include "rigs/two_masses.hpp"
 
 namespace flexspline {
 namespace {
@@ -15,10 +15,10 @@ struct FreeDrive {
   Instant<S> rates(double t, std::span<const S> y, std::span<const S> p, std::span<S> ydot) const {
     const std::size_t own = variables.size();
     const DriveAt<S> at(model, p, y.subspan(own));
-    Instant<S> x = moving(t, y);
+    Instant<S> x = two_masses(model, t, y);
     drive_motor(at, model.drive(), inputs, loop, x, t, loop ? y[4] : S(0.0));
     const Instant<S> rigid = enter_transmission(at, x, y[own - 1]);
-    accelerate(at, x, rigid, t);
+    accelerate(at, inputs, x, rigid, t);
     if (loop) x.motor_torque_rate = loop_rate(model.drive(), inputs, t, x, y[4]);
     ydot[0] = y[1];
     ydot[1] = x.motor_acceleration;
@@ -28,33 +28,6 @@ struct FreeDrive {
     if (model.torsion_is_state()) ydot[own - 1] = x.torsion_rate;
     at.memory_rates(rigid, x, ydot.subspan(own));
     return x;
-  }
-
- private:
-  template <class S>
-  Instant<S> moving(double t, std::span<const S> y) const {
-    Instant<S> x;
-    x.time = S(t);
-    x.gear_ratio = S(model.drive().gear_ratio);
-    x.motor_angle = y[0];
-    x.motor_speed = y[1];
-    x.load_angle = y[2];
-    x.load_speed = y[3];
-    x.torsion = S(S(y[0] / x.gear_ratio) - y[2]);
-    x.torsion_rate = S(S(y[1] / x.gear_ratio) - y[3]);
-    return x;
-  }
-
-  // Eqs. (5) and (6), with what the kinematics return to both shafts.
-  template <class S>
-  void accelerate(const DriveAt<S>& at, Instant<S>& x, const Instant<S>& rigid, double t) const {
-    const S geared(S(x.transmitted_torque / x.gear_ratio) + at.motor_reaction(rigid, x));
-    const S motor(x.motor_torque - at.motor_losses(x) - geared);
-    S load(x.transmitted_torque - at.load_reaction(rigid, x) - at.load_torque(x));
-    if (inputs.load_torque) load -= S(inputs.load_torque->value(t));
-    x.motor_acceleration = S(motor / at.constant(&DriveSpec::motor_inertia));
-    x.load_acceleration = S(load / at.constant(&DriveSpec::load_inertia));
-    x.torsion_acceleration = S(S(x.motor_acceleration / x.gear_ratio) - x.load_acceleration);
   }
 };
 

@@ -113,6 +113,6 @@ class RigSystemOf final : public RigSystem {
 /// The form's inputs are there and the constants that must be positive are.
 Result<const RigForm*> checked_form(const RigRow& row, const DriveSpec& drive,
                                     const RigInputs& inputs, std::string_view form,
-                                    std::initializer_list<std::string_view> positive);
+                                    const std::vector<std::string_view>& positive);
 
 }  // namespace flexspline

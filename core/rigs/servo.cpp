@@ -1,12 +1,11 @@
 #include <algorithm>
 
 #include "rigs/implicit_root.hpp"
-#include "rigs/rig_parts.hpp"
+#include "rigs/servo_feed.hpp"
+#include "rigs/two_masses.hpp"
 
 namespace flexspline {
 namespace {
-
-enum class Feed { torque, current, voltage, winding };
 
 // States theta, omega at the output (, current). The transmission is rigid; effects there oppose
 // the motion of the output, which is its torsion.
@@ -29,7 +28,7 @@ struct ServoDrive {
     surplus(at, x, acceleration, t);
     ydot[0] = y[1];
     ydot[1] = acceleration;
-    if (feed == Feed::winding) ydot[2] = winding_rate(at, x, t, y[2]);
+    if (feed == Feed::winding) ydot[2] = winding_rate(at, inputs, x, t, y[2]);
     at.memory_rates(start<S>(t, y), x, ydot.subspan(own));
     return x;
   }
@@ -56,36 +55,10 @@ struct ServoDrive {
     }
   }
 
-  bool enabled(double t) const {
-    const auto found = inputs.channels.find(Quantity::drive_enabled);
-    return found == inputs.channels.end() || found->second.value(t) >= 0.5;
-  }
-
-  double voltage(double t) const {
-    const double duty = input(inputs, Quantity::duty_cycle).value(t);
-    return duty * input(inputs, Quantity::supply_voltage).value(t);
-  }
-
-  // A drive that is off carries no current, but for what its winding lets decay.
   template <class S>
   S motor_torque(const DriveAt<S>& at, const Instant<S>& x, double t, std::span<const S> y) const {
     if (feed == Feed::winding) return S(at.constant(&DriveSpec::torque_constant) * y[2]);
-    if (!enabled(t)) return S(0.0);
-    if (feed == Feed::torque) return S(input(inputs, Quantity::motor_torque).value(t));
-    const S kt = at.constant(&DriveSpec::torque_constant);
-    if (feed == Feed::current) return S(kt * input(inputs, Quantity::current).value(t));
-    const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
-    return S(S(kt * S(voltage(t) - emf)) / at.constant(&DriveSpec::resistance));
-  }
-
-  // L i' = V - R i - ke omega; off, the current decays through the bridge.
-  template <class S>
-  S winding_rate(const DriveAt<S>& at, const Instant<S>& x, double t, const S& current) const {
-    const S drop(at.constant(&DriveSpec::resistance) * current);
-    const S inductance = at.constant(&DriveSpec::inductance);
-    if (!enabled(t)) return S(-drop / inductance);
-    const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
-    return S(S(S(voltage(t)) - drop - emf) / inductance);
+    return fed_torque(at, inputs, feed, x, t);
   }
 
   // N (tau_m - J1 N a - losses) - tau - effects, with tau = J2 a + load; x is completed on the way.
@@ -115,19 +88,69 @@ struct ServoDrive {
   }
 };
 
-constexpr std::pair<std::string_view, Feed> kFeeds[] = {{"torque_driven", Feed::torque},
-                                                        {"current_driven", Feed::current},
-                                                        {"voltage_driven", Feed::voltage},
-                                                        {"winding", Feed::winding}};
+// States theta_m, omega_m, theta_l, omega_l (, torsion of the law): the torsion between motor and
+// load that a servo's encoder does not see.
+struct CompliantServo {
+  DriveModel model;
+  RigInputs inputs;
+  std::vector<RigVariable> variables;
+  Feed feed = Feed::torque;
+
+  template <class S>
+  Instant<S> rates(double t, std::span<const S> y, std::span<const S> p, std::span<S> ydot) const {
+    const std::size_t own = variables.size();
+    const DriveAt<S> at(model, p, y.subspan(own));
+    Instant<S> x = two_masses(model, t, y);
+    if (feed == Feed::torque) {
+      x.motor_torque_rate = S(rate_of(input(inputs, Quantity::motor_torque), t));
+    }
+    at.set_motor_torque(x, fed_torque(at, inputs, feed, x, t));
+    const Instant<S> rigid = enter_transmission(at, x, y[own - 1]);
+    accelerate(at, inputs, x, rigid, t);
+    ydot[0] = y[1];
+    ydot[1] = x.motor_acceleration;
+    ydot[2] = y[3];
+    ydot[3] = x.load_acceleration;
+    if (model.torsion_is_state()) ydot[own - 1] = x.torsion_rate;
+    at.memory_rates(rigid, x, ydot.subspan(own));
+    return x;
+  }
+};
+
+struct ServoForm {
+  std::string_view id;
+  Feed feed;
+  bool compliant;
+};
+
+constexpr ServoForm kForms[] = {
+    {"torque_driven", Feed::torque, false},    {"current_driven", Feed::current, false},
+    {"voltage_driven", Feed::voltage, false},  {"winding", Feed::winding, false},
+    {"compliant", Feed::torque, true},         {"compliant_current", Feed::current, true},
+    {"compliant_voltage", Feed::voltage, true}};
+
+std::vector<std::string_view> positive_constants(const ServoForm& form) {
+  std::vector<std::string_view> names = {"gear_ratio"};
+  if (form.feed == Feed::voltage || form.feed == Feed::winding) names.push_back("resistance");
+  if (form.feed == Feed::winding) names.push_back("inductance");
+  if (form.compliant) names.insert(names.end(), {"motor_inertia", "load_inertia"});
+  return names;
+}
+
+Result<std::unique_ptr<RigSystem>> make_compliant(DriveModel model, const RigInputs& inputs,
+                                                  const RigForm& form, Feed feed) {
+  if (auto good = model.check_yielding(); !good) return tl::unexpected(good.error());
+  auto states = states_with_kinematics(model, form);
+  return std::make_unique<RigSystemOf<CompliantServo>>(
+      CompliantServo{std::move(model), inputs, std::move(states), feed});
+}
 
 Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
                                         std::string_view name) {
   const RigRow& row = rig_row(Rig::servo);
-  const auto form = name == "winding" ? checked_form(row, drive, inputs, name,
-                                                     {"gear_ratio", "resistance", "inductance"})
-                    : name == "voltage_driven"
-                        ? checked_form(row, drive, inputs, name, {"gear_ratio", "resistance"})
-                        : checked_form(row, drive, inputs, name, {"gear_ratio"});
+  const auto* found = name.empty() ? kForms : std::ranges::find(kForms, name, &ServoForm::id);
+  const ServoForm& wanted = found == std::end(kForms) ? kForms[0] : *found;
+  const auto form = checked_form(row, drive, inputs, name, positive_constants(wanted));
   if (!form) return tl::unexpected(form.error());
   if (!(reflected_inertia(drive) + drive.load_inertia > 0.0)) {
     return failure(ErrorCode::bad_data, "servo: neither motor_inertia nor load_inertia is positive",
@@ -135,16 +158,17 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   }
   auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal});
   if (!model) return tl::unexpected(model.error());
+  if (wanted.compliant) return make_compliant(std::move(*model), inputs, **form, wanted.feed);
   if (model->has(Site::kinematics)) {
     return failure(ErrorCode::bad_data,
-                   "the servo's transmission is rigid: an effect of the kinematics has no torsion "
-                   "to add to",
-                   "simulate the free rig, or take the effect out of the model");
+                   fmt::format("in the servo's form {} the transmission is rigid: an effect of the "
+                               "kinematics has no torsion to add to",
+                               (*form)->id),
+                   "use its form compliant, compliant_current or compliant_voltage, or take the "
+                   "effect out of the model");
   }
-  const auto* feed =
-      std::ranges::find(kFeeds, (*form)->id, &std::pair<std::string_view, Feed>::first);
   return std::make_unique<RigSystemOf<ServoDrive>>(
-      ServoDrive{std::move(*model), inputs, (*form)->states, feed->second});
+      ServoDrive{std::move(*model), inputs, (*form)->states, wanted.feed});
 }
 
 }  // namespace
@@ -154,6 +178,10 @@ RigRow describe_servo() {
                                            {"load_speed", "rad/s", "omega at the output"}};
   auto winding = states;
   winding.push_back({"current", "A", "in the winding"});
+  const std::vector<RigVariable> two = {{"motor_angle", "rad", "theta_m"},
+                                        {"motor_speed", "rad/s", "at the motor"},
+                                        {"load_angle", "rad", "theta_l"},
+                                        {"load_speed", "rad/s", "at the output"}};
   const std::vector<Quantity> bridge = {Quantity::duty_cycle, Quantity::supply_voltage};
   return {
       .id = "servo",
@@ -162,13 +190,17 @@ RigRow describe_servo() {
       .equations =
           "(N^2 J1 + J2) theta'' + (N^2 B1 + B2) theta' + N tau_f + m g l sin(theta) = "
           "N tau_m, (5) and (6) with phi = 0; tau_m = kt i, "
-          "L i' = V - R i - ke omega_m, V = duty supply",
+          "L i' = V - R i - ke omega_m, V = duty supply; compliant: (5)-(8)",
       .not_modelled =
-          "torsion, and kinematics with it; sag of the supply beyond what supply_voltage records",
+          "torsion, and kinematics with it, but for the compliant forms; sag of the supply beyond "
+          "what supply_voltage records",
       .forms = {{"torque_driven", "by motor_torque", states, {Quantity::motor_torque}},
                 {"current_driven", "tau_m = kt i", states, {Quantity::current}},
                 {"voltage_driven", "tau_m = kt (V - ke omega)/R", states, bridge},
-                {"winding", "with the inductance of the winding", winding, bridge}},
+                {"winding", "with the inductance of the winding", winding, bridge},
+                {"compliant", "eqs. (5)-(8) by motor_torque", two, {Quantity::motor_torque}},
+                {"compliant_current", "eqs. (5)-(8), tau_m = kt i", two, {Quantity::current}},
+                {"compliant_voltage", "eqs. (5)-(8), tau_m = kt (V - ke omega)/R", two, bridge}},
       .constants =
           constants_named({"motor_inertia", "motor_viscous", "motor_coulomb", "coulomb_width",
                            "load_inertia", "load_viscous", "load_mass", "arm_length",

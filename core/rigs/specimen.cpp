@@ -1,4 +1,5 @@
 #include "rigs/implicit_root.hpp"
+#include "rigs/imposed_motion.hpp"
 #include "rigs/rig_parts.hpp"
 
 namespace flexspline {
@@ -65,25 +66,42 @@ struct Specimen {
     x = at_speed(x, v);
     enter_torque(at, x);
     at.add_kinematics(x);
-    x.transmitted_torque = at.torsion_law(x);
-    const S effects(at.sum(Site::transmission, x) + at.sum(Site::motor, x) + at.sum(Site::load, x));
-    x.transmitted_torque += effects;
+    x.transmitted_torque = SpecimenTorque{}(at, x);
     return S(x.transmitted_torque + at.sum(Site::torque_signal, x));
   }
 };
 
+// The inputs with torque and motion under the name that the equations have for them.
+RigInputs in_one_name(RigInputs inputs) {
+  constexpr std::pair<Quantity, Quantity> kNames[] = {
+      {Quantity::torque, Quantity::transmitted_torque},
+      {Quantity::force, Quantity::transmitted_torque},
+      {Quantity::angle, Quantity::torsion},
+      {Quantity::displacement, Quantity::torsion}};
+  for (const auto& [other, own] : kNames) {
+    const auto found = inputs.channels.find(other);
+    if (found != inputs.channels.end()) inputs.channels.emplace(own, found->second);
+  }
+  return inputs;
+}
+
+Result<std::unique_ptr<RigSystem>> make_moved(const RigForm& form, const DriveSpec& drive,
+                                              RigInputs inputs) {
+  auto model = DriveModel::make(drive, {}, {});
+  if (!model) return tl::unexpected(model.error());
+  if (auto good = model->check_yielding(); !good) return tl::unexpected(good.error());
+  auto states = states_with_kinematics(*model, form);
+  return std::make_unique<RigSystemOf<ImposedMotion>>(
+      ImposedMotion{std::move(*model), std::move(inputs), std::move(states)});
+}
+
 Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs& inputs,
                                         std::string_view name) {
   const RigRow& row = rig_row(Rig::specimen);
-  RigInputs given = inputs;
-  for (Quantity other : {Quantity::torque, Quantity::force}) {
-    const auto found = inputs.channels.find(other);
-    if (found != inputs.channels.end()) {
-      given.channels.emplace(Quantity::transmitted_torque, found->second);
-    }
-  }
+  RigInputs given = in_one_name(inputs);
   const auto form = checked_form(row, drive, given, name, {});
   if (!form) return tl::unexpected(form.error());
+  if ((*form)->id == "displacement_driven") return make_moved(**form, drive, std::move(given));
   auto model = DriveModel::make(drive, row.constants, {Site::torque_signal});
   if (!model) return tl::unexpected(model.error());
   return std::make_unique<RigSystemOf<Specimen>>(
@@ -101,9 +119,14 @@ RigRow describe_specimen() {
               "tau = g^-1(phi'/h(phi)) + f(phi) (4); motion in rad (m), effort in Nm (N)",
           .not_modelled = "mass of the specimen, but for inertia_torque when displacement-driven",
           .forms = {{"force_driven",
-                     "eq. (3) with the effects' memory; displacement-driven is simulate_torque",
+                     "eq. (3) with the effects' memory",
                      {{"motion", "rad", "phi, or m"}},
-                     {Quantity::transmitted_torque}}},
+                     {Quantity::transmitted_torque}},
+                    {"displacement_driven",
+                     "eq. (4) with the effects' memory as functions of time; simulate_torque goes "
+                     "from sample to sample",
+                     {{"work", "J", "done on the specimen"}},
+                     {Quantity::torsion}}},
           .constants = {},
           .outputs = {Quantity::torsion, Quantity::transmitted_torque},
           .residuals = {"torsion"},

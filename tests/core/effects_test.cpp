@@ -94,7 +94,49 @@ TEST(BoucWen, FollowsDahlsExponentialWhateverTheSampling) {
       const double x = motion.position[i];
       const double expected =
           i <= turn ? 1.0 - std::exp(-x / kSlip) : -1.0 + (1.0 + top) * std::exp((x - 1.0) / kSlip);
-      EXPECT_NEAR(torque[i] / 5.0, expected, 1e-3) << "step " << step << " at " << x;
+      EXPECT_NEAR(torque[i] / 5.0, expected, 1e-13) << "step " << step << " at " << x;
+    }
+  }
+}
+
+/// Slip lengths from z = 0, in closed form: int_0^z du / (1 - sgn(u) |u|^n).
+double slip_lengths(double z, double exponent) {
+  const double a = std::abs(z);
+  if (exponent == 1.0) return z < 0.0 ? -std::log1p(a) : -std::log1p(-a);
+  if (exponent == 2.0) return z < 0.0 ? -std::atan(a) : std::atanh(a);
+  const double root = std::sqrt(a);  // exponent 1/2
+  return z < 0.0 ? 2.0 * (std::log1p(root) - root) : -2.0 * (root + std::log1p(-root));
+}
+
+TEST(BoucWen, GoesAsFarAsItsClosedFormsWhateverTheSampling) {
+  constexpr double kSlip = 0.4;
+  for (const double exponent : {0.5, 1.0, 2.0}) {
+    for (const double step : {0.5, 1.0 / 8.0, 1.0 / 512.0}) {
+      const auto motion = zigzag({0.0, 1.0, -0.5}, step);
+      const auto torque = torque_of(
+          "bouc_wen", {{"height", 5.0}, {"slip_length", kSlip}, {"exponent", exponent}}, motion);
+      const auto turn = static_cast<std::size_t>(1.0 / step);
+      const double top = slip_lengths(-torque[turn] / 5.0, exponent);
+      for (std::size_t i = 0; i < torque.size(); ++i) {
+        const double x = motion.position[i];
+        const double z = torque[i] / 5.0;
+        const double gone =
+            i <= turn ? slip_lengths(z, exponent) : slip_lengths(-z, exponent) - top;
+        EXPECT_NEAR(gone, (i <= turn ? x : 1.0 - x) / kSlip, 1e-11)
+            << "exponent " << exponent << ", step " << step << " at " << x;
+      }
+    }
+  }
+}
+
+// Whatever the exponent, one step goes where many go.
+TEST(BoucWen, DoesNotSeeItsSampling) {
+  for (const double exponent : {0.2, 0.7, 1.3, 3.0, 5.0}) {
+    const Parameters law = {{"height", 5.0}, {"slip_length", 0.3}, {"exponent", exponent}};
+    const auto coarse = torque_of("bouc_wen", law, zigzag({0.0, 1.0, -0.5, 0.25}, 0.25));
+    const auto fine = torque_of("bouc_wen", law, zigzag({0.0, 1.0, -0.5, 0.25}, 1.0 / 1024.0));
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+      EXPECT_NEAR(coarse[i], fine[256 * i], 1e-12) << "exponent " << exponent << " at " << i;
     }
   }
 }

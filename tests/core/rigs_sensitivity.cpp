@@ -54,6 +54,16 @@ std::vector<Case> cases() {
            "force_driven",
            {creep},
            {{{Quantity::transmitted_torque, sine(20.0, 2.0)}}, {}}},
+          {"specimen_moved",
+           Rig::specimen,
+           "displacement_driven",
+           {creep},
+           {{{Quantity::torsion, sine(2e-3, 2.0)}}, {}}},
+          {"specimen_moved_yielding",
+           Rig::specimen,
+           "displacement_driven",
+           {series, creep},
+           {{{Quantity::torsion, sine(2e-3, 2.0)}}, {}}},
           {"servo", Rig::servo, "torque_driven", {}, torque},
           {"servo_current",
            Rig::servo,
@@ -61,7 +71,14 @@ std::vector<Case> cases() {
            {},
            {{{Quantity::current, sine(4.0, 2.0)}}, {}}},
           {"servo_voltage", Rig::servo, "voltage_driven", {}, bridge},
-          {"servo_winding", Rig::servo, "winding", {}, bridge}};
+          {"servo_winding", Rig::servo, "winding", {}, bridge},
+          {"servo_compliant", Rig::servo, "compliant", {series, error}, torque},
+          {"servo_compliant_current",
+           Rig::servo,
+           "compliant_current",
+           {error},
+           {{{Quantity::current, sine(4.0, 2.0)}}, {}}},
+          {"servo_compliant_voltage", Rig::servo, "compliant_voltage", {series}, bridge}};
 }
 
 class EveryRig : public testing::TestWithParam<Case> {};
@@ -85,7 +102,8 @@ TEST_P(EveryRig, HasTheDerivativesOfItsTrajectory) {
   const auto times = instants(0.3, 3);
   std::vector<double> start(n, 0.0);
   // Away from zero motion, where powers of zero have no difference to show.
-  start[0] = one.rig == Rig::specimen ? 5e-4 : one.rig == Rig::servo ? 0.3 : 0.03;
+  const bool imposed = one.form == "displacement_driven";
+  start[0] = imposed ? 0.0 : one.rig == Rig::specimen ? 5e-4 : one.rig == Rig::servo ? 0.3 : 0.03;
   const auto settings = tight(n);
   const auto forward = integrate_with_sensitivities(*rig, p, times, start, {}, settings);
   ASSERT_TRUE(forward) << forward.error().message();

@@ -117,13 +117,100 @@ TEST(Servo, SolvesForTheTorqueThatItsFrictionDependsOn) {
   EXPECT_NEAR(20.0 * (0.4 - drive.motor_inertia * x.motor_acceleration - lost), tau, 1e-10);
 }
 
-TEST(ServoRig, RefusesKinematicsForWhichItHasNoTorsion) {
+TEST(ServoRig, RefusesKinematicsWhereItHasNoTorsion) {
   DriveSpec drive = example_drive();
   drive.torsion.effects = {{"backlash", {{"half_gap", 1e-4}, {"rounding", 2e-5}}}};
   const auto rig =
       make_rig(Rig::servo, drive, {{{Quantity::motor_torque, constant(0.1)}}, {}}, "torque_driven");
   ASSERT_FALSE(rig);
   EXPECT_THAT(rig.error().message(), testing::HasSubstr("rigid"));
+  EXPECT_THAT(rig.error().message(), testing::HasSubstr("compliant"));
+}
+
+/// Every effect of the kinematics, with what it needs beside it, in sizes that show.
+std::vector<EffectSpec> kinematics() {
+  return {{"backlash", {{"half_gap", 1e-4}, {"rounding", 2e-5}}},
+          {"kinematic_error", {{"amplitude", 1.5e-4}, {"order", 2.0}, {"phase", 0.3}}},
+          {"output_kinematic_error", {{"amplitude", 1e-4}, {"order", 1.0}, {"phase", 0.2}}},
+          {"series_compliance", {{"compliance", 4.8e-5}}},
+          {"lost_motion", {{"half_gap", 1e-4}, {"width", 9.0}}}};
+}
+
+// All that the catalogue lists for the servo is simulated on it, in one form or another.
+TEST(ServoRig, TakesEveryEffectThatIsListedForIt) {
+  const RigInputs inputs{{{Quantity::motor_torque, sine(0.4, 2.0)}}, {}};
+  for (const EffectRow& row : effects()) {
+    if (std::ranges::find(row.rigs, Rig::servo) == row.rigs.end()) continue;
+    DriveSpec drive = example_drive();
+    EffectSpec effect{std::string(row.id), {}};
+    for (const auto& one : row.parameters) {
+      effect.parameters.emplace_back(std::string(one.name), one.nominal);
+    }
+    drive.torsion.effects = {effect};
+    for (const std::string_view form : {"torque_driven", "compliant"}) {
+      if (form == "torque_driven" && row.site == Site::kinematics) continue;
+      const auto rig = make_rig(Rig::servo, drive, inputs, form);
+      EXPECT_TRUE(rig) << row.id << ", " << form << ": " << rig.error().message();
+    }
+  }
+}
+
+// With torsion it is the free rig, seen from its load.
+TEST(ServoRig, MovesAsTheFreeRigWhereItIsCompliant) {
+  const RigInputs inputs{{{Quantity::motor_torque, sine(0.4, 2.0)}}, {}};
+  for (const EffectSpec& effect : kinematics()) {
+    DriveSpec drive = example_drive();
+    drive.torsion.effects = {effect};
+    const auto servo = made_rig(Rig::servo, drive, inputs, "compliant");
+    const auto free = made_rig(Rig::free, drive, inputs);
+    const auto times = instants(1.0, 50);
+    const std::size_t n = free->states();
+    ASSERT_EQ(servo->states(), n);
+    const auto y = simulated(*servo, servo->parameter_vector(), times, servo->rest(), 1e-9, 1e-12);
+    const auto z = simulated(*free, free->parameter_vector(), times, free->rest(), 1e-9, 1e-12);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      EXPECT_NEAR(y[i * n + 2], z[i * n + 2], 1e-9) << effect.effect << " at " << times[i];
+    }
+  }
+}
+
+// A stiff transmission with an error that turns with the output: theta_m = N (theta_l - e), and the
+// power of the motor is that of the load.
+TEST(ServoRig, TurnsItsLoadThroughAnErrorOfTheKinematics) {
+  DriveSpec drive = bare();
+  drive.torsion.f = law_spec("odd_polynomial", 1e-3, {}, {1e3});
+  drive.torsion.g_inverse = law_spec("odd_polynomial", 1.0, {}, {1e2});
+  constexpr double kError = 0.05;
+  drive.torsion.effects = {
+      {"output_kinematic_error", {{"amplitude", kError}, {"order", 3.0}, {"phase", 0.0}}}};
+  const auto rig =
+      made_rig(Rig::servo, drive, {{{Quantity::motor_torque, constant(0.02)}}, {}}, "compliant");
+  const auto times = instants(1.5, 60);
+  const auto y = simulated(*rig, rig->parameter_vector(), times, rig->rest(), 1e-10, 1e-13);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double motor = y[4 * i];
+    const double load = y[4 * i + 2];
+    EXPECT_NEAR(motor / 20.0 - load + kError * std::sin(3.0 * load), 0.0, 2e-6) << times[i];
+    const double energy = 0.5 * drive.motor_inertia * y[4 * i + 1] * y[4 * i + 1] +
+                          0.5 * drive.load_inertia * y[4 * i + 3] * y[4 * i + 3];
+    EXPECT_NEAR(energy, 0.02 * motor, 1e-4 * (0.02 * motor + 1e-3)) << times[i];
+  }
+  EXPECT_GT(y[4 * 60 + 2], 1.0) << "turned far enough for the error to show";
+}
+
+TEST(ServoRig, IsFedWithVoltageWhereItIsCompliant) {
+  auto [drive, inputs] = voltage_step();
+  drive.torsion.f = law_spec("odd_polynomial", 1e-3, {}, {1e3});
+  drive.torsion.g_inverse = law_spec("odd_polynomial", 1.0, {}, {1e2});
+  const auto rig = made_rig(Rig::servo, drive, inputs, "compliant_voltage");
+  const auto times = instants(1.0, 20);
+  const auto y = simulated(*rig, rig->parameter_vector(), times, rig->rest(), 1e-10, 1e-12);
+  const double inertia = drive.motor_inertia + drive.load_inertia / 400.0;
+  const double rate = drive.torque_constant * drive.back_emf / (drive.resistance * inertia);
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double speed = 0.5 * 7.4 / drive.back_emf * (1.0 - std::exp(-rate * times[i]));
+    EXPECT_NEAR(y[4 * i + 1] / speed, 1.0, 1e-4) << times[i];
+  }
 }
 
 }  // namespace

@@ -125,7 +125,19 @@ Motion soft_start(double amplitude, int per_cycle) {
   return m;
 }
 
-// Eq. (3) and eq. (4) undo each other with what yields in series too.
+double fastest(const std::vector<double>& time, const std::vector<double>& values) {
+  double most = 0.0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    most = std::max(most, std::abs(values[i] - values[i - 1]) / (time[i] - time[i - 1]));
+  }
+  return most;
+}
+
+/// s by which a rig's joint lags behind its torque, so that it can be integrated.
+constexpr double kCreep = 1e-5;
+
+// Eq. (3) and eq. (4) undo each other with what yields in series too, sample by sample; a rig's
+// joint, which creeps, only to its lag. As rigs, joint and all: inverse_test.
 TEST(SeriesCompliance, GivesBackTheMotionThatMadeTheTorque) {
   for (const bool plays : {false, true}) {
     ModelSpec model = example_drive().torsion;
@@ -142,7 +154,8 @@ TEST(SeriesCompliance, GivesBackTheMotionThatMadeTheTorque) {
     }
     std::printf("there and back in series with a %s: %.2e of the range\n",
                 plays ? "joint" : "spring", worst / 2e-3);
-    EXPECT_LT(worst / 2e-3, plays ? 1e-4 : 1e-8);
+    const double lag = kCreep * kGap * fastest(motion.time, *torque) / kFriction;
+    EXPECT_LT(worst, plays ? lag : 1e-8 * 2e-3);
   }
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "rigs/rig_parts.hpp"
+
+namespace flexspline {
+
+/// What a servo's motor is fed with. winding: a voltage, through the inductance.
+enum class Feed { torque, current, voltage, winding };
+
+/// Without the channel drive_enabled a drive is on.
+inline bool enabled(const RigInputs& inputs, double t) {
+  const auto found = inputs.channels.find(Quantity::drive_enabled);
+  return found == inputs.channels.end() || found->second.value(t) >= 0.5;
+}
+
+inline double voltage(const RigInputs& inputs, double t) {
+  return input(inputs, Quantity::duty_cycle).value(t) *
+         input(inputs, Quantity::supply_voltage).value(t);
+}
+
+/// The motor's torque; a drive that is off carries no current. Not through the winding, whose
+/// current is a state.
+template <class S>
+S fed_torque(const DriveAt<S>& at, const RigInputs& inputs, Feed feed, const Instant<S>& x,
+             double t) {
+  if (!enabled(inputs, t)) return S(0.0);
+  if (feed == Feed::torque) return S(input(inputs, Quantity::motor_torque).value(t));
+  const S kt = at.constant(&DriveSpec::torque_constant);
+  if (feed == Feed::current) return S(kt * input(inputs, Quantity::current).value(t));
+  const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
+  return S(S(kt * S(voltage(inputs, t) - emf)) / at.constant(&DriveSpec::resistance));
+}
+
+/// L i' = V - R i - ke omega; off, the current decays through the bridge.
+template <class S>
+S winding_rate(const DriveAt<S>& at, const RigInputs& inputs, const Instant<S>& x, double t,
+               const S& current) {
+  const S drop(at.constant(&DriveSpec::resistance) * current);
+  const S inductance = at.constant(&DriveSpec::inductance);
+  if (!enabled(inputs, t)) return S(-drop / inductance);
+  const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
+  return S(S(S(voltage(inputs, t)) - drop - emf) / inductance);
+}
+
+}  // namespace flexspline

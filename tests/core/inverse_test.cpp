@@ -1,0 +1,305 @@
+// Torque-driven and displacement-driven simulation undo each other, for every effect that acts in a
+// torsion law.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "effect_paths.hpp"
+#include "flexspline/core/simulate.hpp"
+#include "flexspline/core/torque_signal.hpp"
+#include "motions.hpp"
+#include "rig_examples.hpp"
+
+namespace flexspline {
+namespace {
+
+bool acts_in_a_torsion_law(const EffectRow& row) {
+  return row.site == Site::transmission || row.site == Site::kinematics ||
+         row.site == Site::motor || row.site == Site::load || row.site == Site::torque_signal;
+}
+
+/// A law of the size of the effect: of the output, or of the motor shaft, whose angle the torsion
+/// of a specimen is too.
+struct Specimen {
+  ModelSpec model;
+  double range;
+  double torque;
+};
+
+Specimen specimen_of(const EffectRow& row) {
+  const bool motor = row.site == Site::motor;
+  Specimen specimen{example_drive().torsion, 2e-3, 30.0};
+  if (motor) {
+    specimen.range = 0.2;
+    specimen.torque = 1.0;
+    specimen.model.f = law_spec("odd_polynomial", 0.2, {}, {0.8, 0.2});
+    specimen.model.g_inverse = law_spec("odd_polynomial", 5.0, {}, {0.1, 0.03});
+    specimen.model.h = law_spec("bounded_modulation", 0.2, {}, {0.1, 0.2});
+  }
+  specimen.model.effects = {{std::string(row.id), nominal_parameters(row)}};
+  if (row.id == "load_dependent_kinematic_error") {
+    // Passive beside a spring of at least its own compliance only.
+    specimen.model.effects.push_back({"series_compliance", {{"compliance", 4.8e-5}}});
+  }
+  return specimen;
+}
+
+// Three shares of amplitude: minor loops, turning points between the samples. Starts at zero.
+Motion loops(double range, int per_cycle) {
+  Motion motion = harmonic_motion({0.5 * range, 0.3 * range, 0.2 * range}, per_cycle, 2);
+  const double start = motion.position.front();
+  for (double& x : motion.position) x -= start;
+  return motion;
+}
+
+/// The two ways of driving a specimen in one system: the first by a signal, the second by what the
+/// first makes of it, with no samples between them.
+class ThereAndBack final : public OdeSystem {
+ public:
+  ThereAndBack(const DriveSpec& drive, Quantity given, const Signal& signal) {
+    const bool moved = given == Quantity::torsion;
+    first_ = made_rig(Rig::specimen, drive, {{{given, signal}}, {}},
+                      moved ? "displacement_driven" : "force_driven");
+    const Signal between{[this](double) { return value_; }, [this](double) { return rate_; }};
+    const Quantity other = moved ? Quantity::transmitted_torque : Quantity::torsion;
+    second_ = made_rig(Rig::specimen, drive, {{{other, between}}, {}},
+                       moved ? "force_driven" : "displacement_driven");
+    moved_ = moved;
+    p_first_ = first_->parameter_vector();
+    p_second_ = second_->parameter_vector();
+  }
+
+  std::size_t states() const override { return first_->states() + second_->states(); }
+  std::size_t parameters() const override { return 0; }
+  void rate(double t, std::span<const double> y, std::span<const double>,
+            std::span<double> ydot) const override {
+    const std::size_t n = first_->states();
+    first_->rate(t, y.first(n), p_first_, ydot.first(n));
+    pass_on(t, y.first(n), ydot.first(n));
+    second_->rate(t, y.subspan(n), p_second_, ydot.subspan(n));
+  }
+  // For Newton's iteration, without what the second sees of the first: that only feeds forward.
+  void rate(double t, std::span<const Dual> y, std::span<const Dual>,
+            std::span<Dual> ydot) const override {
+    const std::size_t n = first_->states();
+    first_->rate(t, y.first(n), duals(p_first_), ydot.first(n));
+    pass_on(t, reals(y.first(n)), reals(ydot.first(n)));
+    second_->rate(t, y.subspan(n), duals(p_second_), ydot.subspan(n));
+  }
+
+  /// What the second gives back.
+  double back(double t, std::span<const double> y) const {
+    const std::size_t n = first_->states();
+    if (moved_) return y[n];
+    std::vector<double> ydot(n);
+    first_->rate(t, y.first(n), p_first_, ydot);
+    pass_on(t, y.first(n), ydot);
+    return second_->instant(t, y.subspan(n), p_second_).transmitted_torque;
+  }
+
+ private:
+  void pass_on(double t, std::span<const double> y, std::span<const double> ydot) const {
+    if (!moved_) {
+      value_ = y[0];
+      rate_ = ydot[0];
+      return;
+    }
+    value_ = torque(t, y);
+    rate_ = 0.0;
+    constexpr double kStep = 1e-5;
+    for (const auto& [ahead, weight] : {std::pair(1.0, 2.0 / 3.0), {2.0, -1.0 / 12.0}}) {
+      std::vector<double> after(y.begin(), y.end());
+      std::vector<double> before = after;
+      for (std::size_t k = 0; k < y.size(); ++k) {
+        after[k] += ahead * kStep * ydot[k];
+        before[k] -= ahead * kStep * ydot[k];
+      }
+      rate_ +=
+          weight / kStep * (torque(t + ahead * kStep, after) - torque(t - ahead * kStep, before));
+    }
+  }
+
+  static std::vector<double> reals(std::span<const Dual> values) {
+    std::vector<double> list;
+    for (const Dual& v : values) list.push_back(v.value());
+    return list;
+  }
+  static std::vector<Dual> duals(std::span<const double> values) {
+    return {values.begin(), values.end()};
+  }
+
+  double torque(double t, std::span<const double> y) const {
+    const auto x = first_->instant(t, y, p_first_);
+    return x.transmitted_torque;
+  }
+
+  std::unique_ptr<RigSystem> first_;
+  std::unique_ptr<RigSystem> second_;
+  std::vector<double> p_first_;
+  std::vector<double> p_second_;
+  bool moved_ = false;
+  mutable double value_ = 0.0;
+  mutable double rate_ = 0.0;
+};
+/// Zero at the start, like its first derivative.
+Signal wave(double size) {
+  constexpr double w = 2.0 * std::numbers::pi;
+  return {[=](double t) {
+            return size * (std::sin(w * t) - 0.5 * std::sin(2.0 * w * t) +
+                           0.4 * (1.0 - std::cos(3.0 * w * t)));
+          },
+          [=](double t) {
+            return size * w *
+                   (std::cos(w * t) - std::cos(2.0 * w * t) + 1.2 * std::sin(3.0 * w * t));
+          }};
+}
+
+/// NaN once there was one.
+double largest(double so_far, double difference) {
+  return std::abs(difference) <= so_far ? so_far : std::abs(difference);
+}
+
+/// Largest difference between what drives a specimen and what comes back, over the largest of it.
+double lost_there_and_back(const DriveSpec& drive, Quantity given, const Signal& signal) {
+  const ThereAndBack system(drive, given, signal);
+  const auto times = instants(2.0, 400);
+  const std::vector<double> rest(system.states(), 0.0);
+  const auto y = simulated(system, {}, times, rest, 1e-11, 1e-14);
+  double worst = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto now = std::span(y).subspan(i * system.states(), system.states());
+    worst = largest(worst, system.back(times[i], now) - signal.value(times[i]));
+    most = std::max(most, std::abs(signal.value(times[i])));
+  }
+  return worst / most;
+}
+
+/// Nothing drives a motor on a specimen, and what distorts its torque has nothing to distort.
+bool idle_on_a_specimen(const Specimen& specimen) {
+  Specimen without = specimen;
+  without.model.effects.clear();
+  const Motion motion = loops(specimen.range, 200);
+  const auto with = simulate_torque(specimen.model, motion);
+  const auto bare = simulate_torque(without.model, motion);
+  EXPECT_TRUE(with && bare);
+  return !with || !bare || *with == *bare;
+}
+
+TEST(TheLaw, HasEveryEffectButThoseOfTheMotorsTorque) {
+  std::vector<std::string_view> idle;
+  for (const EffectRow& row : effects()) {
+    if (acts_in_a_torsion_law(row) && idle_on_a_specimen(specimen_of(row))) idle.push_back(row.id);
+  }
+  EXPECT_THAT(idle, testing::UnorderedElementsAre("current_lag", "torque_constant_error",
+                                                  "torque_saturation"));
+}
+
+class InTheLaw : public testing::TestWithParam<std::size_t> {
+ protected:
+  const EffectRow& row() const { return effects()[GetParam()]; }
+};
+
+/// Effects without a way back from the torque, and what says so.
+const std::map<std::string_view, std::string_view> kOneWay = {
+    {"inertia_torque", "needs the acceleration"},
+    {"sensor_delay", "needs the whole signal"},
+    {"torque_quantisation", "needs the whole signal"},
+    {"torque_sensor_nonlinearity", "needs the rate of the transmitted torque"}};
+
+/// Effects whose torque is not made as a function of time, and what says so: they are driven as
+/// rigs.
+const std::map<std::string_view, std::string_view> kAsRigsOnly = {
+    {"gms_friction", "switches while it slips"},
+    {"load_dependent_kinematic_error", "kinematics follow the torque"},
+    {"lost_motion", "kinematics follow the torque"},
+    {"play_backlash", "kinematics follow the torque"},
+    {"series_compliance", "kinematics follow the torque"}};
+
+// The memory's own update along the path against its rate, integrated.
+TEST_P(InTheLaw, GivesBackTheMotionThatMadeItsTorque) {
+  const Specimen specimen = specimen_of(row());
+  const Motion motion = loops(specimen.range, 400);
+  const auto torque = torque_signal(specimen.model, motion);
+  for (const auto* exceptions : {&kOneWay, &kAsRigsOnly}) {
+    const auto exception = exceptions->find(row().id);
+    if (exception == exceptions->end()) continue;
+    ASSERT_FALSE(torque);
+    EXPECT_THAT(torque.error().message(), testing::HasSubstr(std::string(exception->second)));
+    return;
+  }
+  ASSERT_TRUE(torque) << torque.error().message();
+  const auto torsion =
+      simulate_torsion(specimen.model, motion.time, *torque, 0.0, {1e-11, 1e-13, 5000000});
+  ASSERT_TRUE(torsion) << torsion.error().message();
+  double worst = 0.0;
+  for (std::size_t i = 0; i < torsion->size(); ++i) {
+    worst = std::max(worst, std::abs((*torsion)[i] - motion.position[i]));
+  }
+  std::printf("%s, motion to torque to motion: %.1e of the range\n", row().id.data(),
+              worst / specimen.range);
+  EXPECT_LT(worst, 1e-8 * specimen.range);
+}
+
+// Both ways round, as differential equations, for what is not on the instrument.
+TEST_P(InTheLaw, UndoesItselfAsRigs) {
+  if (row().site == Site::torque_signal) GTEST_SKIP() << "on the instrument";
+  const Specimen specimen = specimen_of(row());
+  DriveSpec drive;
+  drive.torsion = specimen.model;
+  drive.gear_ratio = 1.0;
+  const double motion = lost_there_and_back(drive, Quantity::torsion, wave(0.5 * specimen.range));
+  const double torque =
+      lost_there_and_back(drive, Quantity::transmitted_torque, wave(0.5 * specimen.torque));
+  std::printf("%s: motion %.1e, torque %.1e of the largest\n", row().id.data(), motion, torque);
+  EXPECT_LT(motion, 1e-8);
+  EXPECT_LT(torque, 1e-8);
+}
+
+// What the instrument adds goes the other way round through its samples.
+TEST_P(InTheLaw, GivesBackTheTorqueThatItsInstrumentShowed) {
+  if (row().site != Site::torque_signal) GTEST_SKIP() << "in the specimen";
+  if (kOneWay.contains(row().id)) GTEST_SKIP() << "no way back";
+  const Specimen specimen = specimen_of(row());
+  DriveSpec drive;
+  drive.torsion = specimen.model;
+  const Signal shown = wave(0.5 * specimen.torque);
+  const auto rig = made_rig(Rig::specimen, drive, {{{Quantity::transmitted_torque, shown}}, {}});
+  const auto times = instants(2.0, 4000);
+  const auto p = rig->parameter_vector();
+  // The motion at which the instrument shows what it does at rest is where it starts.
+  const auto y = simulated(*rig, p, times, rig->rest(), 1e-11, 1e-15);
+  Motion motion;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const std::vector<double> state{y[i]};
+    motion.time.push_back(times[i]);
+    motion.position.push_back(y[i]);
+    motion.velocity.push_back(rig->instant(times[i], state, p).motor_speed);
+    motion.acceleration.push_back(0.0);
+  }
+  const auto torque = simulate_torque(specimen.model, motion);
+  ASSERT_TRUE(torque) << torque.error().message();
+  double worst = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    worst = std::max(worst, std::abs((*torque)[i] - shown.value(times[i])));
+    most = std::max(most, std::abs(shown.value(times[i])));
+  }
+  std::printf("%s, torque to motion to torque: %.1e of its peak\n", row().id.data(), worst / most);
+  EXPECT_LT(worst, 1e-8 * most);
+}
+
+std::vector<std::size_t> effects_in_the_law() {
+  std::vector<std::size_t> list;
+  for (std::size_t k = 0; k < effects().size(); ++k) {
+    if (acts_in_a_torsion_law(effects()[k])) list.push_back(k);
+  }
+  return list;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, InTheLaw, testing::ValuesIn(effects_in_the_law()),
+                         [](const auto& param) { return std::string(effects()[param.param].id); });
+
+}  // namespace
+}  // namespace flexspline
