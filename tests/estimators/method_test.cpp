@@ -10,6 +10,23 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
+/// Form and starts for methods that are given one: a spring and a damper.
+std::optional<GivenModel> given_for(const MethodRow& row) {
+  if (!row.takes_model) return std::nullopt;
+  return GivenModel{.model = {.f = {.law = "odd_polynomial",
+                                    .scale = kAmplitude,
+                                    .knots = {},
+                                    .coefficients = {3.0, 0.1}},
+                              .g_inverse = {.law = "odd_polynomial",
+                                            .scale = kSpeed,
+                                            .knots = {},
+                                            .coefficients = {4.0, 0.1}},
+                              .h = {.law = "bounded_modulation", .knots = {}, .coefficients = {}},
+                              .effects = {}},
+                    .hold = {},
+                    .free = {}};
+}
+
 class EveryMethod : public testing::TestWithParam<std::size_t> {
  protected:
   const MethodRow& row() const { return methods()[GetParam()]; }
@@ -40,14 +57,15 @@ TEST_P(EveryMethod, RefusesARecordWithoutMotion) {
   auto record = measured(smooth_gear(), {});
   record.id = "stuck";
   for (double& x : record.motion) x = 0.001;
-  const auto estimate = row().fit({.records = {record}, .options = {}});
+  const auto estimate = row().fit({.records = {record}, .options = {}, .model = given_for(row())});
   ASSERT_FALSE(estimate);
   EXPECT_THAT(estimate.error().message(), HasSubstr("stuck"));
 }
 
 TEST_P(EveryMethod, ReportsNumbersThatAreNumbers) {
-  const auto estimate =
-      row().fit({.records = four_loops(smooth_gear(), {.noise = 0.003}), .options = {}});
+  const auto estimate = row().fit({.records = four_loops(smooth_gear(), {.noise = 0.003}),
+                                   .options = {},
+                                   .model = given_for(row())});
   ASSERT_TRUE(estimate) << estimate.error().message();
   EXPECT_EQ(estimate->estimator, row().id);
   EXPECT_NE(estimate->termination, Termination::not_run);

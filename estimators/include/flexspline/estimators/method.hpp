@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/estimate.hpp"
+#include "flexspline/core/model_spec.hpp"
 #include "flexspline/core/recording.hpp"
 
 namespace flexspline::estimators {
@@ -29,10 +31,20 @@ struct Options {
   std::map<std::string, std::string> words;
 };
 
+/// A model whose form is given: its numbers are starts. Entries of hold and free name parameters
+/// (stribeck_friction.excess), laws or effects with all of theirs (f, stribeck_friction), or an
+/// ending that several share (.yield).
+struct GivenModel {
+  ModelSpec model;
+  std::vector<std::string> hold;  ///< stay as they are
+  std::vector<std::string> free;  ///< are fitted though they would be held
+};
+
 /// What is to be fitted: the training recordings alone. What is held out never comes here.
 struct FitProblem {
   std::vector<TorsionRecord> records;
   Options options;
+  std::optional<GivenModel> model{};  ///< for methods that take one
 };
 
 /// A row of the catalogue of estimators.
@@ -42,6 +54,7 @@ struct MethodRow {
   std::string_view source;
   std::vector<OptionInfo> options;
   Result<Estimate> (*fit)(const FitProblem&);
+  bool takes_model = false;  ///< fits the form it is given, and cannot do without
 };
 
 /// Every method, one file each in estimators/methods.

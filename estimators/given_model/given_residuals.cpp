@@ -1,0 +1,124 @@
+#include "given_model/given_residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flexspline/core/drive_spec.hpp"
+#include "flexspline/core/simulate.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr double kRelativeStep = 1e-6;
+
+std::vector<std::size_t> rows_of(const TorsionRecord& record, std::size_t most) {
+  const std::size_t stride = (record.time.size() + most - 1) / most;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < record.time.size(); i += stride) {
+    if (record.valid.empty() || record.valid[i]) rows.push_back(i);
+  }
+  return rows;
+}
+
+GivenParameter zero_of(const GivenRecord& one) {
+  const auto [low, high] = std::ranges::minmax(one.motion.position);
+  return {.name = "zero[" + one.record.id + "]",
+          .unit = one.record.linear ? "m" : "rad",
+          .start = 0.5 * (low + high),
+          .lower = low,
+          .upper = high};
+}
+
+}  // namespace
+
+Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
+                                               std::size_t most_rows) {
+  std::vector<GivenRecord> list;
+  for (const TorsionRecord& record : records) {
+    auto smooth = reconstruct(record);
+    if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + record.id));
+    list.push_back({record, std::move(smooth->motion), rows_of(record, most_rows)});
+  }
+  return list;
+}
+
+GivenResiduals::GivenResiduals(const ModelSpec& model, std::vector<GivenParameter> parameters,
+                               const std::vector<GivenRecord>& records, bool each_zero)
+    : model_(model), records_(records) {
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    values_.push_back(parameters[k].start);
+    if (parameters[k].held) continue;
+    free_.push_back(k);
+    unknowns_.push_back(std::move(parameters[k]));
+  }
+  for (std::size_t i = 0; each_zero && i < records.size(); ++i) {
+    unknowns_.push_back(zero_of(records[i]));
+  }
+  for (const GivenParameter& one : unknowns_) sizes_.push_back(std::abs(one.start));
+}
+
+ModelSpec GivenResiduals::model_at(std::span<const double> q) const {
+  std::vector<double> values = values_;
+  for (std::size_t k = 0; k < free_.size(); ++k) values[free_[k]] = q[k];
+  return with_parameters({.torsion = model_}, {}, values).torsion;
+}
+
+Result<std::vector<double>> GivenResiduals::predict(std::size_t block,
+                                                    std::span<const double> q) const {
+  const GivenRecord& one = records_[block];
+  const bool shifted = unknowns_.size() > free_.size();
+  Motion moved;
+  if (shifted) {
+    moved = one.motion;
+    for (double& x : moved.position) x -= q[free_.size() + block];
+  }
+  const auto whole = simulate_torque(model_at(q), shifted ? moved : one.motion);
+  if (!whole) return whole;
+  std::vector<double> rows;
+  rows.reserve(one.rows.size());
+  for (std::size_t i : one.rows) rows.push_back((*whole)[i]);
+  return rows;
+}
+
+std::vector<double> GivenResiduals::measured(std::size_t block) const {
+  std::vector<double> rows;
+  for (std::size_t i : records_[block].rows) rows.push_back(records_[block].record.effort[i]);
+  return rows;
+}
+
+double GivenResiduals::step(std::size_t unknown, std::span<const double> q) const {
+  const double size = std::max(std::abs(q[unknown]), sizes_[unknown]);
+  return kRelativeStep * (size > 0.0 ? size : 1.0);
+}
+
+Result<void> GivenResiduals::evaluate(std::size_t block, std::span<const double> q,
+                                      std::span<double> residual,
+                                      std::span<double> jacobian) const {
+  const auto at = predict(block, q);
+  if (!at) return tl::unexpected(at.error());
+  const std::vector<double> target = measured(block);
+  for (std::size_t i = 0; i < target.size(); ++i) residual[i] = target[i] - (*at)[i];
+  if (jacobian.empty()) return {};
+  std::ranges::fill(jacobian, 0.0);
+  const std::size_t n = unknowns_.size();
+  std::vector<double> moved(q.begin(), q.end());
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!acts(k, block)) continue;
+    const double h = step(k, q);
+    const double above = std::min(q[k] + h, unknowns_[k].upper);
+    const double below = std::max(q[k] - h, unknowns_[k].lower);
+    moved[k] = above;
+    const auto up = predict(block, moved);
+    moved[k] = below;
+    const auto down = predict(block, moved);
+    moved[k] = q[k];
+    if (!up) return tl::unexpected(up.error());
+    if (!down) return tl::unexpected(down.error());
+    for (std::size_t i = 0; i < target.size(); ++i) {
+      jacobian[i * n + k] = -((*up)[i] - (*down)[i]) / (above - below);
+    }
+  }
+  return {};
+}
+
+}  // namespace flexspline::estimators

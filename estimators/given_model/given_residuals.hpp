@@ -1,0 +1,59 @@
+#pragma once
+
+#include "flexspline/core/signals.hpp"
+#include "given_model/given_parameters.hpp"
+#include "solvers/least_squares.hpp"
+
+namespace flexspline::estimators {
+
+/// A recording along which a given model's torque is simulated.
+struct GivenRecord {
+  TorsionRecord record;
+  Motion motion;                  ///< reconstructed, on all samples: memories need the whole path
+  std::vector<std::size_t> rows;  ///< samples that get a residual
+};
+
+/// At most most_rows of each record get a residual, evenly spread; invalid samples none.
+/// Errors: numerics, where a motion cannot be reconstructed.
+Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
+                                               std::size_t most_rows);
+
+/// Measured less simulated torque, Nm (N), of a given model: a block a recording. Unknowns: the
+/// parameters that are not held, then (each_zero) where every recording's motion has its zero. The
+/// Jacobian is by central differences, one-sided at a bound.
+class GivenResiduals final : public LeastSquaresProblem {
+ public:
+  GivenResiduals(const ModelSpec& model, std::vector<GivenParameter> parameters,
+                 const std::vector<GivenRecord>& records, bool each_zero);
+
+  std::size_t blocks() const override { return records_.size(); }
+  std::size_t residuals(std::size_t block) const override { return records_[block].rows.size(); }
+  Result<void> evaluate(std::size_t block, std::span<const double> q, std::span<double> residual,
+                        std::span<double> jacobian) const override;
+
+  /// Every unknown with its name, start and bounds.
+  const std::vector<GivenParameter>& unknowns() const { return unknowns_; }
+  std::size_t of_model() const { return free_.size(); }
+  ModelSpec model_at(std::span<const double> q) const;
+  /// What the model predicts at the rows of a block.
+  Result<std::vector<double>> predict(std::size_t block, std::span<const double> q) const;
+  std::vector<double> measured(std::size_t block) const;
+  /// A step of an unknown that is small against its size, yet seen through rounding.
+  double step(std::size_t unknown, std::span<const double> q) const;
+  /// Typical sizes of the unknowns, for steps where they are near zero.
+  void set_sizes(std::vector<double> sizes) { sizes_ = std::move(sizes); }
+
+ private:
+  bool acts(std::size_t unknown, std::size_t block) const {
+    return unknown < free_.size() || unknown - free_.size() == block;
+  }
+
+  ModelSpec model_;
+  std::vector<double> values_;     ///< of all parameters of the model
+  std::vector<std::size_t> free_;  ///< which of them are unknowns
+  std::vector<GivenParameter> unknowns_;
+  std::vector<double> sizes_;
+  const std::vector<GivenRecord>& records_;
+};
+
+}  // namespace flexspline::estimators

@@ -1,0 +1,136 @@
+// The form of a given model, fitted: its numbers come back, and what cannot be fitted is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "flexspline/core/simulate.hpp"
+#include "gears.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+LawSpec polynomial(double scale, std::vector<double> coefficients) {
+  return {.law = "odd_polynomial",
+          .scale = scale,
+          .knots = {},
+          .coefficients = std::move(coefficients)};
+}
+
+ModelSpec spring_with(std::vector<EffectSpec> effects) {
+  return {.f = polynomial(0.1, {20.0, 8.0}),
+          .g_inverse = polynomial(0.1, {1.5}),
+          .h = {.law = "bounded_modulation", .knots = {}, .coefficients = {}},
+          .effects = std::move(effects)};
+}
+
+const ModelSpec kTruth = spring_with(
+    {{"stribeck_friction",
+      {{"excess", 1.2}, {"stribeck_speed", 0.03}, {"exponent", 2.0}, {"smoothing", 0.004}}},
+     {"presliding_hysteresis",
+      {{"stiffness", 300.0}, {"yield", 0.004}, {"stiffness", 40.0}, {"yield", 0.03}}},
+     {"torque_sensor_offset", {{"offset", 0.4}}}});
+
+const ModelSpec kStart = spring_with(
+    {{"stribeck_friction",
+      {{"excess", 0.3}, {"stribeck_speed", 0.08}, {"exponent", 1.3}, {"smoothing", 0.004}}},
+     {"presliding_hysteresis",
+      {{"stiffness", 100.0}, {"yield", 0.006}, {"stiffness", 10.0}, {"yield", 0.02}}},
+     {"torque_sensor_offset", {{"offset", 0.0}}}});
+
+/// Two sines of other amplitudes and frequencies, one after the other, from a zero of their own.
+TorsionRecord along(const ModelSpec& model, double amplitude, double omega, double zero) {
+  Motion motion;
+  for (int k = 0; k < 1200; ++k) {
+    const double t = 0.01 * k;
+    motion.time.push_back(t);
+    motion.position.push_back(amplitude * (std::sin(omega * t) + 0.3 * std::sin(2.7 * omega * t)));
+    motion.velocity.push_back(amplitude * omega *
+                              (std::cos(omega * t) + 0.81 * std::cos(2.7 * omega * t)));
+    motion.acceleration.push_back(-amplitude * omega * omega *
+                                  (std::sin(omega * t) + 2.187 * std::sin(2.7 * omega * t)));
+  }
+  TorsionRecord record;
+  record.id = "a" + std::to_string(amplitude);
+  record.time = motion.time;
+  record.effort = *simulate_torque(model, motion);
+  record.motion = motion.position;
+  for (double& x : record.motion) x += zero;
+  return record;
+}
+
+FitProblem problem_of(const ModelSpec& start) {
+  return {.records = {along(kTruth, 0.08, 1.3, 0.0), along(kTruth, 0.03, 2.1, 0.0)},
+          .options = {},
+          .model = GivenModel{start, {}, {}}};
+}
+
+Result<Estimate> fitted(const FitProblem& problem) {
+  return (*find_method("model_file"))->fit(problem);
+}
+
+double value_of(const Estimate& estimate, const std::string& name) {
+  for (const auto& one : estimate.parameters) {
+    if (one.name == name) return one.value;
+  }
+  ADD_FAILURE() << "no " << name;
+  return 0.0;
+}
+
+TEST(ModelFile, NumbersOfItsFormComeBack) {
+  const auto estimate = fitted(problem_of(kStart));
+  ASSERT_TRUE(estimate) << estimate.error().message();
+  EXPECT_NEAR(value_of(*estimate, "f[0]"), 20.0, 0.05);
+  EXPECT_NEAR(value_of(*estimate, "f[1]"), 8.0, 0.05);
+  EXPECT_NEAR(value_of(*estimate, "g_inverse[0]"), 1.5, 0.02);
+  EXPECT_NEAR(value_of(*estimate, "stribeck_friction.excess"), 1.2, 0.02);
+  EXPECT_NEAR(value_of(*estimate, "stribeck_friction.stribeck_speed"), 0.03, 1e-3);
+  EXPECT_NEAR(value_of(*estimate, "presliding_hysteresis[0].yield"), 0.004, 1e-4);
+  EXPECT_NEAR(value_of(*estimate, "presliding_hysteresis[1].yield"), 0.03, 1e-3);
+  EXPECT_NEAR(value_of(*estimate, "torque_sensor_offset.offset"), 0.4, 1e-2);
+  for (const auto& fit : estimate->fits) EXPECT_LT(fit.rmse, 5e-3) << fit.id;
+}
+
+TEST(ModelFile, EveryRecordingMayHaveItsOwnZero) {
+  auto problem = problem_of(kStart);
+  problem.records = {along(kTruth, 0.08, 1.3, 0.5), along(kTruth, 0.03, 2.1, -0.2)};
+  problem.options.words["zero"] = "each";
+  const auto estimate = fitted(problem);
+  ASSERT_TRUE(estimate) << estimate.error().message();
+  EXPECT_NEAR(value_of(*estimate, "zero[" + problem.records[0].id + "]"), 0.5, 5e-4);
+  EXPECT_NEAR(value_of(*estimate, "zero[" + problem.records[1].id + "]"), -0.2, 5e-4);
+}
+
+TEST(ModelFile, WhatIsHeldStaysAndWidthsAreHeldUnlessFreed) {
+  auto problem = problem_of(kStart);
+  problem.model->hold = {"presliding_hysteresis", "f[1]"};
+  const auto held = fitted(problem);
+  ASSERT_TRUE(held) << held.error().message();
+  EXPECT_EQ(held->model.effects[1].parameters, kStart.effects[1].parameters);
+  EXPECT_EQ(held->model.f.coefficients[1], kStart.f.coefficients[1]);
+  EXPECT_EQ(held->model.effects[0].parameters[3].second, 0.004);
+  for (const auto& one : held->parameters) EXPECT_FALSE(one.name.ends_with(".smoothing"));
+  problem.model->free = {"stribeck_friction.smoothing"};
+  const auto freed = fitted(problem);
+  ASSERT_TRUE(freed) << freed.error().message();
+  EXPECT_TRUE(std::ranges::any_of(freed->parameters, [](const auto& one) {
+    return one.name == "stribeck_friction.smoothing";
+  }));
+}
+
+TEST(ModelFile, RefusesWhatItCannotFit) {
+  auto problem = problem_of(kStart);
+  problem.model.reset();
+  EXPECT_THAT(fitted(problem).error().message(), HasSubstr("no model to fit"));
+  problem = problem_of(kStart);
+  problem.model->hold = {"stribeck_friktion"};
+  EXPECT_THAT(fitted(problem).error().message(), HasSubstr("stribeck_friktion"));
+  problem = problem_of(kStart);
+  problem.model->model.effects[0].parameters[0].second = -1.0;
+  EXPECT_THAT(fitted(problem).error().message(),
+              AllOf(HasSubstr("stribeck_friction.excess"), HasSubstr("-1")));
+}
+
+}  // namespace
+}  // namespace flexspline::estimators
