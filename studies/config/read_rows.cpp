@@ -4,6 +4,7 @@
 
 #include "config/study_reader.hpp"
 #include "flexspline/core/nearest_name.hpp"
+#include "flexspline/data/model_toml.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -68,6 +69,43 @@ estimators::Options read_options(TomlSection& section, const estimators::MethodR
   return options;
 }
 
+/// The model that a method takes, with what of it is held.
+std::optional<estimators::GivenModel> read_given_model(TomlSection& section,
+                                                       const estimators::MethodRow* method,
+                                                       const std::filesystem::path& root) {
+  const auto file = section.text("model");
+  estimators::GivenModel given{{}, section.texts("hold"), section.texts("free")};
+  if (method == nullptr) return std::nullopt;
+  if (file.has_value() != method->takes_model) {
+    section.refuse("model",
+                   fmt::format("method '{}' {}", method->id,
+                               file ? "takes no model" : "fits a model and is given none"),
+                   file ? "use method = \"model_file\", or leave the model out"
+                        : "add model = \"FILE.toml\" (docs/model-file.md)");
+    return std::nullopt;
+  }
+  if (!file) return std::nullopt;
+  auto model = data::read_model(root / *file);
+  if (!model) {
+    section.refuse("model", model.error().message());
+    return std::nullopt;
+  }
+  given.model = std::move(*model);
+  return given;
+}
+
+/// The recordings to hold out, where the study names them.
+std::optional<std::vector<std::string>> read_held_out(TomlSection& section,
+                                                      const InputConfig& input) {
+  if (!section.has("held_out")) return std::nullopt;
+  auto ids = section.texts("held_out");
+  if (input.dataset.empty()) {
+    section.refuse("held_out", fmt::format("input '{}' is no data set", input.id),
+                   "use holdout = \"<id of a grid>\"");
+  }
+  return ids;
+}
+
 }  // namespace
 
 void check_id(TomlSection& section, const std::string& id, const std::vector<std::string>& before) {
@@ -101,9 +139,10 @@ InputConfig read_input(TomlSection& section, const StudyConfig& study,
   if (!input.dataset.empty() && !input.holdout.empty()) {
     section.refuse("holdout",
                    fmt::format("input '{}' is a data set and takes no hold-out grid", input.id),
-                   "mark recordings with split = \"holdout\" in its dataset.toml");
+                   "name recordings: held_out = [\"<id>\"]");
   }
   check_grid(section, "holdout", input.holdout, study, {});
+  input.held_out = read_held_out(section, input);
   if (input.dataset.is_relative() && !input.dataset.empty()) {
     input.dataset = (data_root / input.dataset).lexically_normal();
   }
@@ -111,7 +150,8 @@ InputConfig read_input(TomlSection& section, const StudyConfig& study,
   return input;
 }
 
-EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study) {
+EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study,
+                               const std::filesystem::path& model_root) {
   EstimatorConfig estimator;
   estimator.id = section.required_text("id");
   estimator.title = section.text("title").value_or(estimator.id);
@@ -120,7 +160,9 @@ EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study) {
   estimator.steady = section.flag("steady").value_or(false);
   estimator.inputs = section.texts("inputs");
   check_grid(section, "train", estimator.train, study, {kTrainAll, kTrainOne});
-  estimator.options = read_options(section, check_method(section, estimator.method));
+  const estimators::MethodRow* method = check_method(section, estimator.method);
+  estimator.options = read_options(section, method);
+  estimator.model = read_given_model(section, method, model_root);
   std::vector<std::string_view> names;
   for (const InputConfig& input : study.inputs) names.emplace_back(input.id);
   for (const std::string& input : estimator.inputs) {

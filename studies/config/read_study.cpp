@@ -32,7 +32,8 @@ void read_rows(TomlSection& root, std::string_view key, std::vector<Row>& rows, 
   }
 }
 
-StudyConfig read_tables(TomlSection& root, const std::filesystem::path& data_root) {
+StudyConfig read_tables(TomlSection& root, const std::filesystem::path& data_root,
+                        const std::filesystem::path& model_root) {
   StudyConfig study;
   read_head(root, study);
   if (auto bench = root.table("bench")) study.bench = read_bench(*bench);
@@ -40,7 +41,7 @@ StudyConfig read_tables(TomlSection& root, const std::filesystem::path& data_roo
   read_rows(root, "input", study.inputs,
             [&](TomlSection& s) { return read_input(s, study, data_root); });
   read_rows(root, "estimator", study.estimators,
-            [&](TomlSection& s) { return read_estimator(s, study); });
+            [&](TomlSection& s) { return read_estimator(s, study, model_root); });
   if (study.inputs.empty()) root.refuse("input", "the study has no input", "add an [[input]]");
   if (study.estimators.empty()) {
     root.refuse("estimator", "the study has no estimator", "add an [[estimator]]");
@@ -65,7 +66,8 @@ Result<StudyReading> read_study(const std::filesystem::path& file,
                                 const std::filesystem::path& data_root) {
   StudyConfig study;
   auto findings = read_toml_root(file, [&](TomlSection& root) {
-    study = read_tables(root, data_root.empty() ? file.parent_path() : data_root);
+    study =
+        read_tables(root, data_root.empty() ? file.parent_path() : data_root, file.parent_path());
   });
   if (!findings) return tl::unexpected(findings.error());
   StudyReading reading{std::nullopt, *std::move(findings)};

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/data/estimate_json.hpp"
+
 namespace flexspline::studies {
 
 using nlohmann::ordered_json;
@@ -34,6 +36,10 @@ ordered_json to_json(const estimators::Options& options) {
   return object;
 }
 
+ordered_json to_json(const estimators::GivenModel& given) {
+  return {{"starts", data::to_json(given.model)}, {"hold", given.hold}, {"free", given.free}};
+}
+
 ordered_json to_json(const StudyConfig& study) {
   ordered_json object = {{"name", study.name},   {"title", study.title},
                          {"seed", study.seed},   {"replicates", study.replicates},
@@ -49,6 +55,7 @@ ordered_json to_json(const StudyConfig& study) {
                       {"truth", input.truth},
                       {"dataset", input.dataset.generic_string()},
                       {"holdout", input.holdout}});
+    if (input.held_out) inputs.back()["held_out"] = *input.held_out;
   }
   ordered_json& rows = object["estimator"] = ordered_json::array();
   for (const EstimatorConfig& row : study.estimators) {
@@ -59,6 +66,7 @@ ordered_json to_json(const StudyConfig& study) {
                     {"steady", row.steady},
                     {"options", to_json(row.options)},
                     {"inputs", row.inputs}});
+    if (row.model) rows.back()["model"] = to_json(*row.model);
   }
   return object;
 }

@@ -10,6 +10,7 @@ namespace flexspline::studies {
 nlohmann::ordered_json to_json(const BenchConfig& bench);
 nlohmann::ordered_json to_json(const std::vector<Loop>& loops);
 nlohmann::ordered_json to_json(const estimators::Options& options);
+nlohmann::ordered_json to_json(const estimators::GivenModel& given);
 nlohmann::ordered_json to_json(const StudyConfig& study);
 
 }  // namespace flexspline::studies

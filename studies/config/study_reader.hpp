@@ -13,7 +13,9 @@ BenchConfig read_bench(TomlSection& section);
 Grid read_grid(TomlSection& section);
 InputConfig read_input(TomlSection& section, const StudyConfig& study,
                        const std::filesystem::path& data_root);
-EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study);
+/// Model files are found from model_root.
+EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study,
+                               const std::filesystem::path& model_root);
 
 /// Refuses an id that was given before, or that cannot be part of a file name.
 void check_id(TomlSection& section, const std::string& id, const std::vector<std::string>& before);

@@ -16,17 +16,28 @@ ordered_json recordings_json(const StudyPlan& plan, const InputConfig& input, st
   return {{"truth", input.truth}, {"bench", to_json(plan.study->bench)}, {"seed", seed}};
 }
 
+/// Everything that an estimate depends on, but for the program: its data by their content.
+ordered_json fit_json(const StudyPlan& plan, const CasePlan& one) {
+  const Grid* grid = plan.study->find_grid(one.estimator->train);
+  return {{"recordings", recordings_json(plan, *one.input, one.seed)},
+          {"train", one.train},
+          {"loops", grid != nullptr ? to_json(grid->loops) : ordered_json::array()},
+          {"steady", one.estimator->steady},
+          {"method", one.estimator->method},
+          {"options", to_json(one.estimator->options)}};
+}
+
 }  // namespace
+
+std::string fit_hash(const StudyPlan& plan, const CasePlan& one) {
+  return data::sha256_hex(fit_json(plan, one).dump());
+}
 
 std::string case_hash(const StudyPlan& plan, const CasePlan& one, const std::string& build_id) {
   const ordered_json text = {{"build", build_id},
                              {"key", one.key},
-                             {"recordings", recordings_json(plan, *one.input, one.seed)},
-                             {"train", one.train},
-                             {"steady", one.estimator->steady},
-                             {"holdout", one.holdout},
-                             {"method", one.estimator->method},
-                             {"options", to_json(one.estimator->options)}};
+                             {"fit", fit_json(plan, one)},
+                             {"holdout", one.holdout}};
   return data::sha256_hex(text.dump());
 }
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "flexspline/core/nearest_name.hpp"
 #include "flexspline/core/torsion_record.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/studies/plan.hpp"
@@ -70,11 +72,39 @@ Result<void> train_on_dataset(CasePlan& plan, const RecordingSet& set) {
   return {};
 }
 
+/// Exactly the recordings named are held out.
+Result<void> hold_out(const std::vector<std::string>& ids, RecordingSet& set, std::string& note) {
+  std::vector<std::string_view> names;
+  for (Recording& recording : set.recordings) {
+    recording.split = Split::train;
+    names.emplace_back(recording.id);
+  }
+  for (const std::string& id : ids) {
+    const auto found = std::ranges::find(set.recordings, id, &Recording::id);
+    if (found == set.recordings.end()) {
+      const auto nearest = nearest_name(id, names);
+      return failure(ErrorCode::bad_data, fmt::format("there is no recording '{}' to hold out", id),
+                     nearest ? fmt::format("did you mean '{}'?", *nearest)
+                             : fmt::format("it has {}", fmt::join(names, ", ")));
+    }
+    found->split = Split::holdout;
+  }
+  note = ids.empty() ? "every recording is trained on; none is held out"
+                     : fmt::format("held out as asked: {}", fmt::join(ids, ", "));
+  return {};
+}
+
 Result<RecordingSet> split_dataset(const InputConfig& input, std::string& note) {
   Result<RecordingSet> set = data::load_dataset(input.dataset);
   if (!set) return tl::unexpected(in_context(set.error(), "input " + input.id));
   Result<std::vector<TorsionRecord>> records = torsion_records(*set);
   if (!records) return tl::unexpected(in_context(records.error(), "input " + input.id));
+  if (input.held_out) {
+    if (auto held = hold_out(*input.held_out, *set, note); !held) {
+      return tl::unexpected(in_context(held.error(), "input " + input.id));
+    }
+    return set;
+  }
   note = split_recordings(*records);
   for (std::size_t i = 0; i < records->size(); ++i) set->recordings[i].split = (*records)[i].split;
   return set;
@@ -139,6 +169,7 @@ Result<StudyPlan> plan_study(const StudyConfig& study, const std::string& build_
         if (!uses(estimator, input)) continue;
         Result<CasePlan> planned = plan_case(plan, prepared, estimator);
         if (!planned) return tl::unexpected(planned.error());
+        planned->fit_depends_on = fit_hash(plan, *planned);
         planned->depends_on = case_hash(plan, *planned, build_id);
         plan.estimated_seconds += kSecondsPerSample * static_cast<double>(planned->train_samples);
         plan.estimated_bytes += kBytesPerRecording * static_cast<double>(planned->train.size() +

@@ -7,8 +7,6 @@
 namespace flexspline::studies {
 namespace {
 
-CaseOutcome failed(Error error) { return {tl::unexpected(std::move(error)), {}}; }
-
 /// The recording as the estimator gets it.
 TorsionRecord training_record(const StudyRecording& recording, const EstimatorConfig& estimator) {
   TorsionRecord record = recording.record;
@@ -26,6 +24,7 @@ Result<Estimate> estimate_of(const CasePlan& plan, const PreparedInput& input) {
   if (!method) return tl::unexpected(method.error());
   estimators::FitProblem problem;
   problem.options = plan.estimator->options;
+  problem.model = plan.estimator->model;
   for (const std::string& id : plan.train) {
     problem.records.push_back(training_record(*input.find(id), *plan.estimator));
   }
@@ -41,35 +40,50 @@ Result<Estimate> estimate_of(const CasePlan& plan, const PreparedInput& input) {
   return estimate;
 }
 
-CaseOutcome compute(const CasePlan& plan, const PreparedInput& input) {
-  CaseOutcome outcome{estimate_of(plan, input), {}};
-  if (!outcome.estimate) return outcome;
-  const auto compare = [&](const std::string& id, bool trained) -> Result<void> {
-    auto comparison = compare_recording(*outcome.estimate, *input.find(id), trained);
-    if (!comparison) return tl::unexpected(in_context(comparison.error(), "recording " + id));
-    outcome.recordings.push_back(std::move(*comparison));
-    return {};
+CaseOutcome compare(const CasePlan& plan, const PreparedInput& input,
+                    const Result<Estimate>& estimate) {
+  CaseOutcome outcome{estimate, {}};
+  const auto add = [&](const std::string& id, bool trained) {
+    auto comparison = compare_recording(*estimate, *input.find(id), trained);
+    if (comparison) {
+      outcome.recordings.push_back(std::move(*comparison));
+    } else {
+      outcome = {tl::unexpected(in_context(comparison.error(), "recording " + id)), {}};
+    }
+    return outcome.estimate.has_value();
   };
   for (const std::string& id : plan.train) {
-    if (auto compared = compare(id, true); !compared) return failed(compared.error());
+    if (!add(id, true)) return outcome;
   }
   for (const std::string& id : plan.holdout) {
-    if (auto compared = compare(id, false); !compared) return failed(compared.error());
+    if (!add(id, false)) return outcome;
   }
   return outcome;
 }
 
+tl::unexpected<Error> defect(const CasePlan& plan, const std::exception& error) {
+  return failure(ErrorCode::defect, fmt::format("{}: {}", plan.key, error.what()),
+                 "please report it with the study file");
+}
+
 }  // namespace
 
-CaseOutcome compute_case(const CasePlan& plan, const Result<PreparedInput>& input) {
-  if (!input) return failed(input.error());
+Result<Estimate> estimate_case(const CasePlan& plan, const Result<PreparedInput>& input) {
+  if (!input) return tl::unexpected(input.error());
   try {
-    return compute(plan, *input);
+    return estimate_of(plan, *input);
   } catch (const std::exception& error) {
-    return failed({ErrorCode::defect,
-                   fmt::format("{}: {}", plan.key, error.what()),
-                   "please report it with the study file",
-                   {}});
+    return defect(plan, error);
+  }
+}
+
+CaseOutcome compare_case(const CasePlan& plan, const Result<PreparedInput>& input,
+                         const Result<Estimate>& estimate) {
+  if (!estimate) return {tl::unexpected(estimate.error()), {}};
+  try {
+    return compare(plan, *input, estimate);
+  } catch (const std::exception& error) {
+    return {defect(plan, error), {}};
   }
 }
 

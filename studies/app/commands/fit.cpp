@@ -51,13 +51,41 @@ std::string summary_of(const ordered_json& estimate) {
   return text;
 }
 
+/// Either an estimator of the catalogue or the form of a model file.
+Result<studies::StudyConfig> study_of(const Arguments& arguments,
+                                      const estimators::Options& options) {
+  const std::string model = arguments.text("model");
+  const std::string estimator = arguments.text("estimator", model.empty() ? "" : "model_file");
+  if (estimator.empty() || (!model.empty() && estimator != "model_file")) {
+    return failure(ErrorCode::usage,
+                   estimator.empty() ? "neither --estimator nor --model is given"
+                                     : "--estimator and --model are both given",
+                   "give one: an id of flexspline list estimators, or a model file whose numbers "
+                   "are starts");
+  }
+  auto study = dataset_study(arguments.text("dataset"), {estimator}, arguments.text("train", "all"),
+                             options);
+  if (!study) return study;
+  const auto held = arguments.texts("holdout");
+  if (held == std::vector<std::string>{"none"}) {
+    study->inputs.front().held_out.emplace();
+  } else if (!held.empty()) {
+    study->inputs.front().held_out = held;
+  }
+  if (model.empty()) return study;
+  auto read = data::read_model(model);
+  if (!read) return tl::unexpected(read.error());
+  study->estimators.front().model =
+      estimators::GivenModel{std::move(*read), arguments.texts("hold"), arguments.texts("free")};
+  return study;
+}
+
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const Result<long> jobs = jobs_of(arguments);
   if (!jobs) return tl::unexpected(jobs.error());
   const auto options = parse_options(arguments.texts("option"));
   if (!options) return tl::unexpected(options.error());
-  const auto study = dataset_study(arguments.text("dataset"), {arguments.text("estimator")},
-                                   arguments.text("train", "all"), *options);
+  const auto study = study_of(arguments, *options);
   if (!study) return tl::unexpected(study.error());
   const std::filesystem::path folder = arguments.text("out");
   std::filesystem::path report;
@@ -79,31 +107,46 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow describe_fit() {
-  return {
-      .id = "fit",
-      .summary = "One estimator on one data set: DIR/estimate.json, DIR/model.toml and a report",
-      .arguments = {{.name = "dataset",
-                     .meaning = "folder of a data set",
-                     .value = "DATASET",
-                     .required = true},
-                    {.name = "--estimator",
-                     .meaning = "method, see flexspline list estimators",
-                     .value = "ID",
-                     .required = true},
-                    {.name = "--option",
-                     .meaning = "a setting of the method",
-                     .value = "NAME=VALUE",
-                     .repeats = true},
-                    {.name = "--train",
-                     .meaning = "all training recordings, or the one with the largest motion",
-                     .value = "all|one"},
-                    {.name = "--out",
-                     .meaning = "folder for estimate and report",
-                     .value = "DIR",
-                     .required = true},
-                    {.name = "--jobs", .meaning = "workers", .value = "N"}},
-      .example = "flexspline fit recordings/iiwa-j1 --estimator trajectory_ceres --out out/j1",
-      .run = run};
+  return {.id = "fit",
+          .summary =
+              "One estimator, or the form of a model file, on one data set: DIR/estimate.json, "
+              "DIR/model.toml and a report",
+          .arguments = {{.name = "dataset",
+                         .meaning = "folder of a data set",
+                         .value = "DATASET",
+                         .required = true},
+                        {.name = "--estimator",
+                         .meaning = "method, see flexspline list estimators",
+                         .value = "ID"},
+                        {.name = "--model",
+                         .meaning = "instead: a model file whose form is fitted from its numbers",
+                         .value = "MODEL.toml"},
+                        {.name = "--hold",
+                         .meaning = "with --model: a parameter, law, effect or .ending that stays",
+                         .value = "NAME",
+                         .repeats = true},
+                        {.name = "--free",
+                         .meaning = "with --model: one that is fitted though it would stay",
+                         .value = "NAME",
+                         .repeats = true},
+                        {.name = "--holdout",
+                         .meaning = "recordings to hold out instead of the automatic ones; or none",
+                         .value = "ID",
+                         .repeats = true},
+                        {.name = "--option",
+                         .meaning = "a setting of the method",
+                         .value = "NAME=VALUE",
+                         .repeats = true},
+                        {.name = "--train",
+                         .meaning = "all training recordings, or the one with the largest motion",
+                         .value = "all|one"},
+                        {.name = "--out",
+                         .meaning = "folder for estimate and report",
+                         .value = "DIR",
+                         .required = true},
+                        {.name = "--jobs", .meaning = "workers", .value = "N"}},
+          .example = "flexspline fit recordings/iiwa-j1 --estimator trajectory_ceres --out out/j1",
+          .run = run};
 }
 
 }  // namespace flexspline::app

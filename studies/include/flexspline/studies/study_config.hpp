@@ -45,6 +45,8 @@ struct InputConfig {
   std::string truth;              ///< id in the catalogue of truths; empty for a data set
   std::filesystem::path dataset;  ///< as found, relative paths already resolved
   std::string holdout;            ///< id of the grid that is evaluated and never trained on
+  /// Of a data set: exactly these recordings are held out, whatever it marks itself.
+  std::optional<std::vector<std::string>> held_out{};
 };
 
 /// What an estimator of a study trains on, of a data set.
@@ -59,7 +61,8 @@ struct EstimatorConfig {
   std::string train = std::string(kTrainAll);  ///< id of a grid, or kTrainAll, or kTrainOne
   bool steady = false;  ///< bench: no residuals in the run-up, which only carries the state along
   estimators::Options options;
-  std::vector<std::string> inputs;  ///< only these; empty: all
+  std::vector<std::string> inputs;                ///< only these; empty: all
+  std::optional<estimators::GivenModel> model{};  ///< for methods that take one
 };
 
 /// A study as read and understood. SI units.
