@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/signals.hpp"
-#include "signals/reconstruct_with.hpp"
+#include "signals/remembered.hpp"
 #include "signals/smoothing.hpp"
 
 namespace flexspline {
 namespace {
 
 constexpr std::size_t kFewest = 16;  // samples of a spline
+constexpr std::size_t kRememberedBytes = std::size_t{32} << 20U;
 
 double smoothstep(double u) {
   u = std::clamp(u, 0.0, 1.0);
@@ -95,27 +96,10 @@ Signals smooth(const TorsionRecord& record, const std::optional<SteadyPart>& ste
   return whole;
 }
 
-}  // namespace
-
-Result<Reconstruction> reconstruct(const TorsionRecord& record) {
-  return reconstruct_with(record, find_steady_part(record));
-}
-
-Result<Reconstruction> reconstruct_with(const TorsionRecord& record,
-                                        const std::optional<SteadyPart>& steady) {
-  if (record.time.size() < 16) {
-    return failure(ErrorCode::numerics,
-                   fmt::format("recording {} has {} samples", record.id, record.time.size()),
-                   "16 or more are needed to tell signal from noise");
-  }
-  const auto [low, high] = std::ranges::minmax(record.motion);
-  if (!(high > low)) {
-    return failure(ErrorCode::numerics, fmt::format("recording {} does not move", record.id),
-                   "leave it out, or check the channel of its motion");
-  }
+Reconstruction reconstruct_moving(const TorsionRecord& record) {
   Reconstruction result;
-  result.steady = steady;
-  Signals signals = smooth(record, steady);
+  result.steady = find_steady_part(record);
+  Signals signals = smooth(record, result.steady);
   SmoothSignal& motion = signals[0];
   SmoothSignal& effort = signals[1];
   result.motion = {.time = record.time,
@@ -127,6 +111,24 @@ Result<Reconstruction> reconstruct_with(const TorsionRecord& record,
   result.effort = std::move(effort.value);
   result.effort_noise = effort.noise;
   return result;
+}
+
+}  // namespace
+
+Result<Reconstruction> reconstruct(const TorsionRecord& record) {
+  if (record.time.size() < 16) {
+    return failure(ErrorCode::numerics,
+                   fmt::format("recording {} has {} samples", record.id, record.time.size()),
+                   "16 or more are needed to tell signal from noise");
+  }
+  const auto [low, high] = std::ranges::minmax(record.motion);
+  if (!(high > low)) {
+    return failure(ErrorCode::numerics, fmt::format("recording {} does not move", record.id),
+                   "leave it out, or check the channel of its motion");
+  }
+  // Every estimator and every comparison of a study asks for the same records again.
+  static Remembered<Reconstruction> remembered(kRememberedBytes);
+  return *remembered.of(record, [&] { return reconstruct_moving(record); });
 }
 
 }  // namespace flexspline

@@ -5,7 +5,6 @@
 
 #include "flexspline/core/signals.hpp"
 #include "flexspline/core/spline.hpp"
-#include "signals/reconstruct_with.hpp"
 
 namespace flexspline {
 namespace {
@@ -150,10 +149,9 @@ std::optional<SteadyPart> find_steady_part(const TorsionRecord& record) {
 }
 
 std::optional<LoopFigures> loop_figures(const TorsionRecord& record) {
-  const auto steady = find_steady_part(record);
-  if (!steady) return std::nullopt;
-  const auto smooth = reconstruct_with(record, steady);
-  if (!smooth) return std::nullopt;
+  const auto smooth = reconstruct(record);
+  if (!smooth || !smooth->steady) return std::nullopt;
+  const std::optional<SteadyPart>& steady = smooth->steady;
   const Spline motion(record.time, smooth->motion.position);
   const Spline effort(record.time, smooth->effort);
   const double end = record.time[steady->last - 1];
