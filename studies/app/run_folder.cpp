@@ -63,7 +63,7 @@ Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study,
                    "the same command goes on from here");
   }
   say_what_was_done(*summary, console);
-  if (const auto written = studies::write_results(*plan, folder); !written) {
+  if (const auto written = studies::write_results(*plan, summary->rows, folder); !written) {
     return tl::unexpected(written.error());
   }
   if (const auto written = studies::write_ro_crate(*plan, versions(), folder); !written) {

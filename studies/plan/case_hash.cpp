@@ -24,6 +24,7 @@ ordered_json fit_json(const StudyPlan& plan, const CasePlan& one) {
           {"loops", grid != nullptr ? to_json(grid->loops) : ordered_json::array()},
           {"steady", one.estimator->steady},
           {"method", one.estimator->method},
+          {"model", one.estimator->model ? to_json(*one.estimator->model) : ordered_json()},
           {"options", to_json(one.estimator->options)}};
 }
 

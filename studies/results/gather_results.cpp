@@ -1,16 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
-#include "flexspline/data/artefact.hpp"
 #include "results/results_table.hpp"
-#include "run/artefact_json.hpp"
 
 namespace flexspline::studies {
 namespace {
-
-using nlohmann::ordered_json;
 
 enum Dimension : std::size_t {
   kInput,
@@ -21,8 +15,6 @@ enum Dimension : std::size_t {
   kParameter,
   kRow
 };
-
-double number(const ordered_json& value) { return value.is_number() ? value.get<double>() : kNone; }
 
 template <class T>
 std::size_t index_in(const std::vector<T>& list, const T& value) {
@@ -37,26 +29,21 @@ void add_once(std::vector<T>& list, const T& value) {
 /// Amplitudes come back from degrees with rounding errors that would make axes of their own.
 double tidy(double value) { return std::round(value * 1e9) / 1e9; }
 
-double error_of(const ordered_json& recording) {
-  const double known = number(recording.at("rmse_true_percent_of_peak"));
-  return std::isnan(known) ? number(recording.at("rmse_percent_of_peak")) : known;
-}
-
 class Gatherer {
  public:
-  Gatherer(const StudyPlan& plan, const std::filesystem::path& folder) : plan_(plan) {
-    for (const CasePlan& one : plan.cases) {
-      auto read = data::read_artefact(folder / "cases" / (one.key + ".json"), kCaseSchema);
-      if (read && read->value("status", "") == "done")
-        artefacts_.emplace_back(&one, std::move(*read));
+  Gatherer(const StudyPlan& plan, std::span<const std::optional<CaseRow>> rows) : plan_(plan) {
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+      if (rows[i]) cases_.emplace_back(&plan.cases[i], &*rows[i]);
     }
   }
 
   ResultsTable operator()() {
     make_axes();
     add_errors();
-    add_parameters("parameter_value", "estimates, SI or as scaled by their law", "value");
-    add_parameters("parameter_std", "standard deviations of the estimates", "std");
+    add_parameters("parameter_value", "estimates, SI or as scaled by their law",
+                   &CaseRow::Parameter::value);
+    add_parameters("parameter_std", "standard deviations of the estimates",
+                   &CaseRow::Parameter::std);
     add_rows();
     return std::move(table_);
   }
@@ -72,23 +59,23 @@ class Gatherer {
     for (const EstimatorConfig& row : plan_.study->estimators)
       table_.axes[kEstimator].labels.push_back(row.id);
     for (int r = 0; r < plan_.study->replicates; ++r) table_.axes[kReplicate].values.push_back(r);
-    for (const auto& [one, artefact] : artefacts_) {
-      for (const ordered_json& parameter : artefact.at("estimate").at("parameters")) {
-        add_once(table_.axes[kParameter].labels, parameter.at("name").get<std::string>());
+    for (const auto& [one, row] : cases_) {
+      for (const CaseRow::Parameter& parameter : row->parameters) {
+        add_once(table_.axes[kParameter].labels, parameter.name);
       }
-      for (const ordered_json& recording : artefact.at("recordings")) {
+      for (const CaseRow::Recording& recording : row->recordings) {
         table_.axes[kRow].values.push_back(static_cast<double>(table_.axes[kRow].values.size()));
         if (!on_grid(*one, recording)) continue;
-        add_once(table_.axes[kAmplitude].values, tidy(number(recording.at("amplitude"))));
-        add_once(table_.axes[kFrequency].values, tidy(number(recording.at("frequency_hz"))));
+        add_once(table_.axes[kAmplitude].values, tidy(recording.amplitude));
+        add_once(table_.axes[kFrequency].values, tidy(recording.frequency_hz));
       }
     }
     std::ranges::sort(table_.axes[kAmplitude].values);
     std::ranges::sort(table_.axes[kFrequency].values);
   }
 
-  static bool on_grid(const CasePlan& one, const ordered_json& recording) {
-    return !one.input->truth.empty() && recording.at("role") == "holdout";
+  static bool on_grid(const CasePlan& one, const CaseRow::Recording& recording) {
+    return !one.input->truth.empty() && recording.role == "holdout";
   }
 
   /// A variable full of NaN.
@@ -119,27 +106,25 @@ class Gatherer {
     Variable& errors =
         add("error_percent", "hold-out rms error of the effort, of the recording's peak", "percent",
             {kInput, kEstimator, kAmplitude, kFrequency, kReplicate});
-    for (const auto& [one, artefact] : artefacts_) {
-      for (const ordered_json& recording : artefact.at("recordings")) {
+    for (const auto& [one, row] : cases_) {
+      for (const CaseRow::Recording& recording : row->recordings) {
         if (!on_grid(*one, recording)) continue;
-        const std::size_t a =
-            index_in(table_.axes[kAmplitude].values, tidy(number(recording.at("amplitude"))));
+        const std::size_t a = index_in(table_.axes[kAmplitude].values, tidy(recording.amplitude));
         const std::size_t f =
-            index_in(table_.axes[kFrequency].values, tidy(number(recording.at("frequency_hz"))));
+            index_in(table_.axes[kFrequency].values, tidy(recording.frequency_hz));
         at(errors, {input_of(*one), estimator_of(*one), a, f,
-                    static_cast<std::size_t>(one->replicate)}) = error_of(recording);
+                    static_cast<std::size_t>(one->replicate)}) = recording.error_percent;
       }
     }
   }
 
-  void add_parameters(const char* name, const char* says, const char* key) {
+  void add_parameters(const char* name, const char* says, double CaseRow::Parameter::*number) {
     Variable& variable = add(name, says, "", {kInput, kEstimator, kReplicate, kParameter});
-    for (const auto& [one, artefact] : artefacts_) {
-      for (const ordered_json& parameter : artefact.at("estimate").at("parameters")) {
-        const std::size_t p =
-            index_in(table_.axes[kParameter].labels, parameter.at("name").get<std::string>());
+    for (const auto& [one, row] : cases_) {
+      for (const CaseRow::Parameter& parameter : row->parameters) {
+        const std::size_t p = index_in(table_.axes[kParameter].labels, parameter.name);
         at(variable, {input_of(*one), estimator_of(*one), static_cast<std::size_t>(one->replicate),
-                      p}) = number(parameter.at(key));
+                      p}) = parameter.*number;
       }
     }
   }
@@ -154,12 +139,12 @@ class Gatherer {
                     {kRow},
                     {},
                     {}};
-    for (const auto& [one, artefact] : artefacts_) {
-      for (const ordered_json& recording : artefact.at("recordings")) {
+    for (const auto& [one, row] : cases_) {
+      for (const CaseRow::Recording& recording : row->recordings) {
         cases.labels.push_back(one->key);
-        ids.labels.push_back(recording.at("id").get<std::string>());
-        roles.labels.push_back(recording.at("role").get<std::string>());
-        errors.values.push_back(error_of(recording));
+        ids.labels.push_back(recording.id);
+        roles.labels.push_back(recording.role);
+        errors.values.push_back(recording.error_percent);
       }
     }
     for (Variable* variable : {&cases, &ids, &roles, &errors})
@@ -167,14 +152,14 @@ class Gatherer {
   }
 
   const StudyPlan& plan_;
-  std::vector<std::pair<const CasePlan*, ordered_json>> artefacts_;
+  std::vector<std::pair<const CasePlan*, const CaseRow*>> cases_;
   ResultsTable table_;
 };
 
 }  // namespace
 
-ResultsTable gather_results(const StudyPlan& plan, const std::filesystem::path& folder) {
-  return Gatherer(plan, folder)();
+ResultsTable gather_results(const StudyPlan& plan, std::span<const std::optional<CaseRow>> rows) {
+  return Gatherer(plan, rows)();
 }
 
 }  // namespace flexspline::studies

@@ -1,10 +1,14 @@
 #pragma once
 
-#include <filesystem>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "flexspline/studies/case_row.hpp"
 #include "flexspline/studies/plan.hpp"
 
 namespace flexspline::studies {
@@ -36,7 +40,11 @@ struct ResultsTable {
   std::vector<Variable> variables;
 };
 
-/// Gathers the table from the case artefacts of a folder. What is missing stays NaN.
-ResultsTable gather_results(const StudyPlan& plan, const std::filesystem::path& folder);
+/// The row of a case's artefact; none where the case failed.
+std::optional<CaseRow> row_of(const nlohmann::ordered_json& artefact);
+
+/// Gathers the table from the rows, which are as many as the plan's cases. What is missing stays
+/// NaN.
+ResultsTable gather_results(const StudyPlan& plan, std::span<const std::optional<CaseRow>> rows);
 
 }  // namespace flexspline::studies

@@ -88,11 +88,12 @@ std::string write_table(const ResultsTable& table, const std::string& title,
 
 }  // namespace
 
-Result<void> write_results(const StudyPlan& plan, const std::filesystem::path& folder) {
+Result<void> write_results(const StudyPlan& plan, std::span<const std::optional<CaseRow>> rows,
+                           const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "results.nc";
   const std::filesystem::path half = folder / ".results.nc.part";
   std::error_code error;
-  const std::string problem = write_table(gather_results(plan, folder), plan.study->title, half);
+  const std::string problem = write_table(gather_results(plan, rows), plan.study->title, half);
   if (problem.empty()) std::filesystem::rename(half, path, error);
   if (problem.empty() && !error) return {};
   std::error_code ignored;

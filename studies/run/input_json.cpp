@@ -15,8 +15,9 @@ using nlohmann::ordered_json;
 
 /// One steady cycle where there is one, else the whole recording.
 std::vector<std::size_t> shown_samples(const TorsionRecord& record) {
-  const std::optional<SteadyPart> steady = find_steady_part(record);
-  if (!steady) return kept_indices(0, record.time.size());
+  const auto smooth = reconstruct(record);
+  if (!smooth || !smooth->steady) return kept_indices(0, record.time.size());
+  const std::optional<SteadyPart>& steady = smooth->steady;
   // One sample more than a period, so that the loop closes.
   const double step = record.time[steady->last - 1] - record.time[steady->last - 2];
   const double start = record.time[steady->last - 1] - steady->period - 0.5 * step;

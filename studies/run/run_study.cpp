@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/signals.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/studies/paper_facts.hpp"
-#include "inputs/input_cache.hpp"
+#include "inputs/once.hpp"
+#include "results/results_table.hpp"
 #include "run/compute_case.hpp"
 #include "run/study_folder.hpp"
 #include "run/worker_pool.hpp"
@@ -24,17 +27,20 @@ using Clock = std::chrono::steady_clock;
 /// One run: what is left to do, and what became of it.
 class Run {
  public:
-  Run(const StudyPlan& plan, const RunSettings& settings)
-      : plan_(plan), settings_(settings), cache_(plan) {}
+  Run(const StudyPlan& plan, const RunSettings& settings);
 
   Result<RunSummary> operator()();
 
  private:
+  using Inputs = Once<const InputPlan*, Result<PreparedInput>>;
+
+  void plan_smoothing();
   void plan_inputs();
   void plan_cases();
   void plan_paper();
   bool write_input(const InputPlan& input);
-  bool write_case(const CasePlan& one);
+  bool write_case(const CasePlan& one, std::size_t number);
+  Inputs::Shared take(const InputPlan& input);
   bool finished(const Result<void>& written);
   void count_case(const CasePlan& one, const CaseOutcome& outcome);
   void report_progress();
@@ -42,7 +48,9 @@ class Run {
 
   const StudyPlan& plan_;
   const RunSettings& settings_;
-  InputCache cache_;
+  std::map<std::pair<const InputConfig*, int>, const InputPlan*> input_plans_;
+  Inputs inputs_;
+  Once<std::string, Result<Estimate>> estimates_;  ///< by fit_depends_on
   std::vector<std::function<bool()>> tasks_;
   std::mutex mutex_;
   RunSummary summary_;
@@ -50,10 +58,37 @@ class Run {
   Clock::time_point start_ = Clock::now();
 };
 
+Run::Run(const StudyPlan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
+  for (const InputPlan& input : plan.inputs) {
+    input_plans_.emplace(std::pair(input.input, input.replicate), &input);
+  }
+}
+
 const InputPlan& Run::input_of(const CasePlan& one) const {
-  return *std::ranges::find_if(plan_.inputs, [&](const InputPlan& input) {
-    return input.input == one.input && input.replicate == one.replicate;
-  });
+  return *input_plans_.at({one.input, one.replicate});
+}
+
+Run::Inputs::Shared Run::take(const InputPlan& input) {
+  return inputs_.take(&input, [&] { return prepare_input(plan_, input); });
+}
+
+/// What is measured is smoothed recording by recording, for all cases at once: few cases of many
+/// recordings keep every worker busy, too.
+void Run::plan_smoothing() {
+  std::vector<std::function<bool()>> smoothing;
+  for (const InputPlan& input : plan_.inputs) {
+    const auto set = plan_.datasets.find(input.input->id);
+    if (set == plan_.datasets.end() || input.replicate != 0) continue;
+    for (std::size_t i = 0; i < set->second.recordings.size(); ++i) {
+      inputs_.reserve(&input);
+      smoothing.emplace_back([this, &input, i] {
+        const Inputs::Shared prepared = take(input);
+        if (*prepared) static_cast<void>(reconstruct((*prepared)->recordings.at(i).record));
+        return true;
+      });
+    }
+  }
+  if (!tasks_.empty()) tasks_.insert(tasks_.begin(), smoothing.begin(), smoothing.end());
 }
 
 void Run::plan_inputs() {
@@ -63,7 +98,7 @@ void Run::plan_inputs() {
     kept.insert(input.key + ".json");
     const auto file = settings_.folder / "inputs" / (input.key + ".json");
     if (find_valid(file, kInputSchema, input.depends_on)) continue;
-    cache_.reserve(input);
+    inputs_.reserve(&input);
     tasks_.emplace_back([this, &input] { return write_input(input); });
   }
   set_aside(settings_.folder / "inputs", kept, settings_);
@@ -72,16 +107,20 @@ void Run::plan_inputs() {
 void Run::plan_cases() {
   std::set<std::string> kept;
   summary_.cases = plan_.cases.size();
-  for (const CasePlan& one : plan_.cases) {
+  summary_.rows.resize(plan_.cases.size());
+  for (std::size_t i = 0; i < plan_.cases.size(); ++i) {
+    const CasePlan& one = plan_.cases[i];
     kept.insert(one.key + ".json");
     const auto file = settings_.folder / "cases" / (one.key + ".json");
-    if (const auto earlier = find_valid(file, kCaseSchema, one.depends_on)) {
+    if (auto earlier = find_valid(file, kCaseSchema, one.depends_on)) {
       ++summary_.reused;
       if (earlier->failed) summary_.failed.push_back(one.key + ": " + earlier->reason);
+      summary_.rows[i] = std::move(earlier->row);
       continue;
     }
-    cache_.reserve(input_of(one));
-    tasks_.emplace_back([this, &one] { return write_case(one); });
+    inputs_.reserve(&input_of(one));
+    estimates_.reserve(one.fit_depends_on);
+    tasks_.emplace_back([this, &one, i] { return write_case(one, i); });
   }
   set_aside(settings_.folder / "cases", kept, settings_);
 }
@@ -102,18 +141,22 @@ void Run::plan_paper() {
 }
 
 bool Run::write_input(const InputPlan& input) {
-  const InputCache::Prepared prepared = cache_.take(input);
+  const Inputs::Shared prepared = take(input);
   if (!*prepared) return true;  // every case of it says why
   return finished(data::write_artefact(settings_.folder / "inputs" / (input.key + ".json"),
                                        input_json(**prepared)));
 }
 
-bool Run::write_case(const CasePlan& one) {
-  const InputCache::Prepared prepared = cache_.take(input_of(one));
-  const CaseOutcome outcome = compute_case(one, *prepared);
+bool Run::write_case(const CasePlan& one, std::size_t number) {
+  const Inputs::Shared prepared = take(input_of(one));
+  const auto estimate =
+      estimates_.take(one.fit_depends_on, [&] { return estimate_case(one, *prepared); });
+  const CaseOutcome outcome = compare_case(one, *prepared, *estimate);
   const PreparedInput* input = prepared->has_value() ? &prepared->value() : nullptr;
-  const bool written = finished(data::write_artefact(
-      settings_.folder / "cases" / (one.key + ".json"), case_json(one, input, outcome)));
+  const nlohmann::ordered_json artefact = case_json(one, input, outcome);
+  summary_.rows[number] = row_of(artefact);  // every case has its own
+  const bool written =
+      finished(data::write_artefact(settings_.folder / "cases" / (one.key + ".json"), artefact));
   if (written) count_case(one, outcome);
   return written;
 }
@@ -149,6 +192,7 @@ Result<RunSummary> Run::operator()() {
   plan_paper();
   plan_inputs();
   plan_cases();
+  plan_smoothing();
   const bool all = run_tasks(tasks_, settings_.jobs, settings_.stop);
   if (error_) return tl::unexpected(*error_);
   summary_.interrupted = !all;

@@ -10,6 +10,8 @@
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
+#include "results/results_table.hpp"
+#include "run/artefact_json.hpp"
 
 namespace flexspline::studies {
 
@@ -24,6 +26,7 @@ std::optional<Earlier> find_valid(const std::filesystem::path& file, std::string
   if (earlier.failed && (*artefact)["failure"].is_object()) {
     earlier.reason = (*artefact)["failure"].value("problem", "");
   }
+  if (schema == kCaseSchema) earlier.row = row_of(*artefact);
   return earlier;
 }
 

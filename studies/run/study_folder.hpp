@@ -14,6 +14,7 @@ namespace flexspline::studies {
 struct Earlier {
   bool failed = false;
   std::string reason;
+  std::optional<CaseRow> row;  ///< of a case that did not fail
 };
 
 /// The artefact at a path, if it is whole and depends on exactly the same things.

@@ -192,12 +192,13 @@ TEST_F(RunStudy, FailingCaseDoesNotStopTheStudy) {
 
 TEST_F(RunStudy, ResultsAreHdf5AndLeaveNothingHalfWritten) {
   const StudyConfig study = load(text_);
-  ASSERT_TRUE(run(study).has_value());
+  const auto summary = run(study);
+  ASSERT_TRUE(summary.has_value());
   const auto plan = plan_study(study, "build");
-  ASSERT_TRUE(write_results(*plan, out()).has_value());
+  ASSERT_TRUE(write_results(*plan, summary->rows, out()).has_value());
   EXPECT_EQ(read_text(out() / "results.nc").substr(1, 3), "HDF");
   EXPECT_FALSE(exists(out() / ".results.nc.part"));
-  const auto nowhere = write_results(*plan, out() / "none");
+  const auto nowhere = write_results(*plan, summary->rows, out() / "none");
   ASSERT_FALSE(nowhere.has_value());
   EXPECT_EQ(nowhere.error().code, ErrorCode::cannot_write);
 }

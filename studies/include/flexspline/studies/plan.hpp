@@ -22,7 +22,8 @@ struct CasePlan {
   std::vector<std::string> train;    ///< ids of the training recordings
   std::vector<std::string> holdout;  ///< ids of the recordings that are held out
   long train_samples = 0;
-  std::string depends_on;  ///< SHA-256 over everything the case's result depends on
+  std::string fit_depends_on;  ///< SHA-256 over what its estimate depends on: equal, computed once
+  std::string depends_on;      ///< SHA-256 over everything the case's result depends on
 };
 
 /// One input and replicate with its recordings.

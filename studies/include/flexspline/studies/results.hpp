@@ -2,20 +2,24 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "flexspline/core/error.hpp"
+#include "flexspline/studies/case_row.hpp"
 #include "flexspline/studies/plan.hpp"
 
 namespace flexspline::studies {
 
-/// results.nc of a study's folder, from its case artefacts alone: netCDF-4, opens in xarray and
-/// MATLAB. error_percent(input, estimator, amplitude, frequency, replicate) holds the hold-out
+/// results.nc of a study's folder, from the rows of its case artefacts: netCDF-4, opens in xarray
+/// and MATLAB. error_percent(input, estimator, amplitude, frequency, replicate) holds the hold-out
 /// errors of the virtual bench; parameter_value and parameter_std(input, estimator, replicate,
 /// parameter) the estimates; row_* (row) every recording of every case, data sets included. NaN
 /// where there is none. Written under a temporary name and renamed.
 /// Errors: cannot_write.
-Result<void> write_results(const StudyPlan& plan, const std::filesystem::path& folder);
+Result<void> write_results(const StudyPlan& plan, std::span<const std::optional<CaseRow>> rows,
+                           const std::filesystem::path& folder);
 
 /// ro-crate-metadata.json: the folder as a process run crate (RO-Crate 1.1): program, inputs,
 /// results. Errors: cannot_write.

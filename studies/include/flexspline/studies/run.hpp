@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "flexspline/core/error.hpp"
+#include "flexspline/studies/case_row.hpp"
 #include "flexspline/studies/plan.hpp"
 
 namespace flexspline::studies {
@@ -36,9 +38,10 @@ struct RunSettings {
 /// What a run did.
 struct RunSummary {
   std::size_t cases = 0;
-  std::size_t computed = 0;         ///< cases
-  std::size_t reused = 0;           ///< valid artefacts of an earlier run
-  std::vector<std::string> failed;  ///< "key: reason", also of reused ones
+  std::size_t computed = 0;                  ///< cases
+  std::size_t reused = 0;                    ///< valid artefacts of an earlier run
+  std::vector<std::string> failed;           ///< "key: reason", also of reused ones
+  std::vector<std::optional<CaseRow>> rows;  ///< a plan's case each; none of those that failed
   bool interrupted = false;
   double seconds = 0.0;
 };

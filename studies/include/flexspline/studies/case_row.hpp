@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flexspline::studies {
+
+/// What the table of results holds of a case, out of its artefact. NaN where there is none.
+struct CaseRow {
+  struct Parameter {
+    std::string name;
+    double value = 0.0;  ///< SI, or as scaled by its law
+    double std = 0.0;
+  };
+  struct Recording {
+    std::string id;
+    std::string role;  ///< "train" or "holdout"
+    double amplitude = 0.0;
+    double frequency_hz = 0.0;
+    double error_percent = 0.0;  ///< against the truth where one is known, else what was measured
+  };
+  std::vector<Parameter> parameters;
+  std::vector<Recording> recordings;
+};
+
+}  // namespace flexspline::studies
