@@ -86,6 +86,10 @@ HiddenNuisances draw_nuisances(Rig rig, std::uint64_t seed, const HiddenGear& ge
   n.torque_offset = kImmaterial * drawn(seed, "noise", 4, -1.0, 1.0);
   n.angle_zero =
       kImmaterial * n.torque_noise * gear.rated_torsion * drawn(seed, "noise", 5, -1.0, 1.0);
+  n.motor_torque_offset =
+      rig == Rig::specimen ? 0.0 : kImmaterial * drawn(seed, "noise", 6, -1.0, 1.0);
+  n.zero_spread = 0.5 * kImmaterial * n.torque_noise * gear.rated_torsion;
+  n.temperature_spread = drawn(seed, "noise", 7, 0.3, 0.9);
   return n;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bench/counter_noise.hpp"
 #include "bench/hidden_differences.hpp"
+#include "bench/hidden_draw.hpp"
 
 namespace flexspline::data {
 namespace {
@@ -81,7 +82,8 @@ Recording ideal_recording(const HiddenBench& bench, const HiddenSession& session
 Recording noisy_recording(const HiddenBench& bench, Recording ideal, double torque_noise,
                           double motor_torque_noise) {
   const HiddenNuisances& n = bench.nuisances;
-  const double zero = n.angle_zero * bench.gear.gear_ratio;
+  const double own_zero = n.zero_spread * drawn(bench.seed, ideal.id, 1002, -1.0, 1.0);
+  const double zero = (n.angle_zero + own_zero) * bench.gear.gear_ratio;
   for (auto& [quantity, values] : ideal.channels) {
     switch (quantity) {
       case Quantity::motor_angle:
@@ -97,6 +99,7 @@ Recording noisy_recording(const HiddenBench& bench, Recording ideal, double torq
         break;
       case Quantity::motor_torque:
         add_noise(values, motor_torque_noise, bench, ideal.id, motor_torque_stream);
+        for (double& value : values) value += n.motor_torque_offset * motor_torque_noise;
         break;
       default:
         break;

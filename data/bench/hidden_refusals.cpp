@@ -45,7 +45,10 @@ std::optional<Error> refusal(const HiddenNuisances& n) {
                         {"load_encoder_step (rad)", n.load_encoder_step, 0.0, 1.0},
                         {"time_jitter", n.time_jitter, 0.0, 0.2},
                         {"angle_zero (rad)", n.angle_zero, -1.0, 1.0},
-                        {"torque_offset", n.torque_offset, -1e3, 1e3}});
+                        {"torque_offset", n.torque_offset, -1e3, 1e3},
+                        {"motor_torque_offset", n.motor_torque_offset, -1e3, 1e3},
+                        {"zero_spread (rad)", n.zero_spread, 0.0, 1.0},
+                        {"temperature_spread (K)", n.temperature_spread, 0.0, 20.0}});
 }
 
 }  // namespace

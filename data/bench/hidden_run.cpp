@@ -42,9 +42,9 @@ double motor_angle(const HiddenGear& gear, const Laws& laws, double rigid) {
   return angle;
 }
 
-void run_shafts(HiddenSignals& s, const HiddenBench& bench, const HeldMotion& held, Laws& laws) {
-  const HiddenGear& gear = bench.gear;
-  const bool moves_load = bench.rig == Rig::free || bench.rig == Rig::servo;
+void run_shafts(HiddenSignals& s, Rig rig, const HiddenGear& gear, const HeldMotion& held,
+                Laws& laws) {
+  const bool moves_load = rig == Rig::free || rig == Rig::servo;
   HiddenTorsion torsion(gear, laws, s.step);
   for (std::size_t k = 0; k < s.motor_angle.size(); ++k) {
     const Jet motion = held.at(s.step * static_cast<double>(k));
@@ -102,8 +102,9 @@ HiddenSignals run_session(const HiddenBench& bench, const HiddenSession& session
   for (auto* channel : {&s.motor_angle, &s.load_angle, &s.torque, &s.motor_torque}) {
     channel->assign(steps, 0.0);
   }
-  run_shafts(s, bench, HeldMotion(session.excitation, bench.seed, session.id), laws);
-  if (bench.rig != Rig::specimen) run_motor(s, bench.gear, laws);
+  const HiddenGear gear = gear_of(bench, session);
+  run_shafts(s, bench.rig, gear, HeldMotion(session.excitation, bench.seed, session.id), laws);
+  if (bench.rig != Rig::specimen) run_motor(s, gear, laws);
   for (const HiddenLaw& law : laws) {
     if (law.sensing) law.sensing(s);
   }

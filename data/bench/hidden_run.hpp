@@ -26,6 +26,9 @@ struct HiddenSession {
 /// Ids tell motion, amplitude and rate; the order in time is drawn.
 std::vector<HiddenSession> plan_sessions(const HiddenBench& bench);
 
+/// The bench's gear at the temperature of a recording.
+HiddenGear gear_of(const HiddenBench& bench, const HiddenSession& session);
+
 /// The ideal signals of a recording with the effects.
 HiddenSignals run_session(const HiddenBench& bench, const HiddenSession& session,
                           const HiddenScale& scale, const std::vector<HiddenAmount>& effects);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -23,7 +24,25 @@ std::string id_of(const HiddenExcitation& x, std::set<std::string>& taken) {
   return id;
 }
 
+/// Of grease per K (0.02 to 0.05), and the weaker one of dry friction.
+constexpr double kViscousSlope = 0.035;
+constexpr double kDrySlope = 0.01;
+
 }  // namespace
+
+HiddenGear gear_of(const HiddenBench& bench, const HiddenSession& session) {
+  HiddenGear gear = bench.gear;
+  const double spread = bench.nuisances.temperature_spread;
+  if (spread == 0.0) return gear;
+  const double warmer = spread * drawn(bench.seed, session.id, 1001, -1.0, 1.0);
+  const double dry = std::exp(-kDrySlope * warmer);
+  const double viscous = std::exp(-kViscousSlope * warmer);
+  gear.motor_drag *= viscous;
+  gear.load_drag *= viscous;
+  gear.motor_coulomb *= dry;
+  gear.damping = [loss = bench.gear.damping, dry](double rate) { return dry * loss(rate); };
+  return gear;
+}
 
 std::vector<HiddenSession> plan_sessions(const HiddenBench& bench) {
   std::vector<HiddenSession> sessions;

@@ -85,15 +85,15 @@ class AmountSearch {
 
 }  // namespace
 
-std::vector<double> equation_residual(const HiddenBench& bench, HiddenEquation equation,
+std::vector<double> equation_residual(const HiddenGear& gear, HiddenEquation equation,
                                       const HiddenSignals& signals, const HiddenSignals& null_run) {
   switch (equation) {
     case HiddenEquation::torsion:
-      return torsion_residual(bench.gear, signals);
+      return torsion_residual(gear, signals);
     case HiddenEquation::load:
-      return load_residual(bench.gear, signals);
+      return load_residual(gear, signals);
     case HiddenEquation::motor:
-      return motor_residual(bench.gear, signals);
+      return motor_residual(gear, signals);
     case HiddenEquation::drive:
       break;
   }
@@ -113,7 +113,8 @@ Result<HiddenSizing> size_effect(const HiddenBench& bench,
     double largest = 0.0;
     for (std::size_t k = 0; k < sessions.size(); ++k) {
       const HiddenSignals run = run_session(bench, sessions[k], scale, {{&row, search.amount()}});
-      for (const double left : equation_residual(bench, equation, run, null_runs[k])) {
+      const HiddenGear gear = gear_of(bench, sessions[k]);
+      for (const double left : equation_residual(gear, equation, run, null_runs[k])) {
         largest = std::max(largest, std::abs(left));
       }
     }

@@ -10,9 +10,9 @@ namespace flexspline::data {
 HiddenScale measure_scale(const HiddenBench& bench, const std::vector<HiddenSession>& sessions,
                           const std::vector<HiddenSignals>& null_runs);
 
-/// What is left of an equation on ideal signals with the true laws, Nm. The drive's is against the
-/// run of the same motion without effects.
-std::vector<double> equation_residual(const HiddenBench& bench, HiddenEquation equation,
+/// What is left of an equation on ideal signals with the true laws of that recording, Nm. The
+/// drive's is against the run of the same motion without effects.
+std::vector<double> equation_residual(const HiddenGear& gear, HiddenEquation equation,
                                       const HiddenSignals& signals, const HiddenSignals& null_run);
 
 /// An effect's amount for a size, and the size it then has.

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <complex>
+#include <set>
 
 #include "dataset_fixture.hpp"
 #include "flexspline/data/dataset.hpp"
@@ -124,6 +126,84 @@ TEST(HiddenSensor, IsOffByItsOffset) {
   EXPECT_EQ(a.at(Quantity::motor_torque), b.at(Quantity::motor_torque));
 }
 
+TEST(HiddenMotorTorque, IsOffByItsOffset) {
+  HiddenBench bench = small_bench(Rig::locked);
+  bench.nuisances = {.torque_noise = 0.005, .motor_torque_offset = -0.1};
+  const auto off = run_hidden_bench(bench, {}).value();
+  bench.nuisances.motor_torque_offset = 0.0;
+  const auto right = run_hidden_bench(bench, {}).value();
+  const auto& a = off.measured.recordings[0].channels;
+  const auto& b = right.measured.recordings[0].channels;
+  for (std::size_t k = 0; k < a.at(Quantity::motor_torque).size(); ++k) {
+    ASSERT_NEAR(a.at(Quantity::motor_torque)[k] - b.at(Quantity::motor_torque)[k],
+                -0.1 * off.answer.motor_noise_std, 1e-12);
+  }
+  EXPECT_EQ(a.at(Quantity::transmitted_torque), b.at(Quantity::transmitted_torque));
+}
+
+TEST(HiddenZero, MovesFromRecordingToRecording) {
+  HiddenBench bench = small_bench(Rig::specimen);
+  bench.nuisances = {.angle_zero = 1e-4, .zero_spread = 2e-5};
+  const auto made = run_hidden_bench(bench, {}).value();
+  std::set<double> zeros;
+  for (std::size_t i = 0; i < made.ideal.recordings.size(); ++i) {
+    const auto& shown = made.measured.recordings[i].channels.at(Quantity::torsion);
+    const auto& angle = made.ideal.recordings[i].channels.at(Quantity::torsion);
+    const double zero = shown[0] - angle[0];
+    EXPECT_NEAR(zero, 1e-4, 2e-5);
+    zeros.insert(zero);
+    for (std::size_t k = 0; k < angle.size(); ++k) ASSERT_NEAR(shown[k] - angle[k], zero, 1e-15);
+  }
+  EXPECT_EQ(zeros.size(), made.ideal.recordings.size());
+}
+
+/// Temperatures by least squares, to first order in them, from what the motor's balance lacks:
+/// (exp(-a T) - 1) B w + (exp(-b T) - 1) tc sgn w. Grease first, dry friction second.
+std::array<double, 2> temperatures(const HiddenBench& bench, const Recording& r) {
+  const auto left = balance(bench, HiddenEquation::motor, r);
+  const Differences angle = series(r, Quantity::motor_angle);
+  double m[2][2] = {};
+  double v[2] = {};
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const double rate = angle.first(k + 2);
+    const double column[] = {bench.gear.motor_drag * rate, coulomb(bench.gear, rate)};
+    for (int i = 0; i < 2; ++i) {
+      v[i] += column[i] * left[k];
+      for (int j = 0; j < 2; ++j) m[i][j] += column[i] * column[j];
+    }
+  }
+  const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  const double viscous = (m[1][1] * v[0] - m[0][1] * v[1]) / det;
+  const double dry = (m[0][0] * v[1] - m[1][0] * v[0]) / det;
+  return {-std::log1p(viscous) / 0.035, -std::log1p(dry) / 0.01};
+}
+
+// Each recording has a temperature of its own, within the spread, that all its friction follows.
+TEST(HiddenTemperature, ScattersTheFrictionFromRecordingToRecording) {
+  HiddenBench bench = small_bench(Rig::free);
+  bench.nuisances = {.temperature_spread = 5.0};
+  const auto made = run_hidden_bench(bench, {}).value();
+  std::set<double> drawn;
+  for (const Recording& r : made.ideal.recordings) {
+    const auto [grease, dry] = temperatures(bench, r);
+    EXPECT_NEAR(grease, dry, 0.05) << r.id;
+    EXPECT_LE(std::abs(grease), 5.05) << r.id;
+    drawn.insert(std::round(10.0 * grease));
+  }
+  EXPECT_EQ(drawn.size(), made.ideal.recordings.size());
+}
+
+// An effect is sized against the friction of its own recording.
+TEST(HiddenTemperature, DoesNotCountAsAnEffect) {
+  HiddenBench bench = small_bench(Rig::free);
+  const auto cold = run_hidden_bench(bench, {{"stribeck_friction", 0.04}}).value();
+  bench.nuisances = {.temperature_spread = 20.0};
+  const auto warm = run_hidden_bench(bench, {{"stribeck_friction", 0.04}}).value();
+  EXPECT_NEAR(warm.answer.effects[0].parameters[0].value,
+              cold.answer.effects[0].parameters[0].value,
+              0.1 * cold.answer.effects[0].parameters[0].value);
+}
+
 // What the kinematics return to the motor is tau de/dth1: what the motor's balance lacks, projected
 // on tau exp(2 i th1), is the amplitude of order 2.
 TEST(HiddenKinematics, ReturnTheirWorkToTheMotor) {
@@ -160,6 +240,10 @@ TEST(HiddenDraw, AsksOfAGearWhatItIsRatedFor) {
               0.1 * bench.nuisances.torque_noise * bench.gear.rated_torsion);
     EXPECT_NE(bench.nuisances.torque_offset, 0.0);
     EXPECT_NE(bench.nuisances.angle_zero, 0.0);
+    EXPECT_LE(std::abs(bench.nuisances.motor_torque_offset), 0.1);
+    EXPECT_NE(bench.nuisances.motor_torque_offset, 0.0);
+    EXPECT_GE(bench.nuisances.temperature_spread, 0.3);
+    EXPECT_LE(bench.nuisances.temperature_spread, 0.9);
   }
   std::printf("drawn free benches peak at %.2f to %.2f of the rated torque\n", least, most);
   EXPECT_GT(least, 0.8);

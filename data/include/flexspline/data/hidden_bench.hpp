@@ -47,14 +47,17 @@ struct HiddenExcitation {
 
 /// What the instruments add. Shares of noise are of the peak torque of the same sensor.
 struct HiddenNuisances {
-  double torque_noise = 0.0;        ///< rms share, white and coloured together
-  double coloured_share = 0.0;      ///< of the noise's variance; a first-order process
-  double coloured_samples = 20.0;   ///< its correlation, in samples
-  double motor_encoder_step = 0.0;  ///< rad at the motor (torsion on a specimen); 0: not quantised
-  double load_encoder_step = 0.0;   ///< rad at the load
-  double time_jitter = 0.0;         ///< rms share of the interval; stamps tell the true instants
-  double angle_zero = 0.0;          ///< rad at the output: the torsion's zero is off by this
-  double torque_offset = 0.0;       ///< of the transmitted torque's sensor, over its noise's rms
+  double torque_noise = 0.0;         ///< rms share, white and coloured together
+  double coloured_share = 0.0;       ///< of the noise's variance; a first-order process
+  double coloured_samples = 20.0;    ///< its correlation, in samples
+  double motor_encoder_step = 0.0;   ///< rad at the motor (torsion on a specimen); 0: not quantised
+  double load_encoder_step = 0.0;    ///< rad at the load
+  double time_jitter = 0.0;          ///< rms share of the interval; stamps tell the true instants
+  double angle_zero = 0.0;           ///< rad at the output: the torsion's zero is off by this
+  double torque_offset = 0.0;        ///< of the transmitted torque's sensor, over its noise's rms
+  double motor_torque_offset = 0.0;  ///< of the motor torque's channel, over its noise's rms
+  double zero_spread = 0.0;         ///< rad at the output: each recording's zero, beside angle_zero
+  double temperature_spread = 0.0;  ///< K: each recording's gear is warmer or colder by up to this
 };
 
 /// A whole bench, drawn or put together by hand.
@@ -137,7 +140,9 @@ std::string_view name_of(HiddenMotion motion);
 
 /// A bench drawn from a seed: families and parameters of the gear (+-20 % and more), a design of
 /// eight to eleven recordings in two decades of rate, noise of 0.3 to 0.6 %, encoders, jitter; the
-/// sensor's offset and what the angle's zero is worth in torque within +-0.1 of the noise's rms. On
+/// torques' offsets and what the angle's zero is worth in torque within +-0.1 of the noise's rms.
+/// From recording to recording the zero moves by half of that and the gear's temperature by up to
+/// 0.3 to 0.9 K: grease by 3.5 % a K, dry friction and the losses of the torsion by 1 % a K. On
 /// free the load asks for 1.05 times the rated torque at most.
 HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed);
 
