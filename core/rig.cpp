@@ -11,7 +11,7 @@
 namespace flexspline {
 namespace {
 
-double channel_of(const Instant<double>& x, Quantity quantity) {
+double channel_of(Rig rig, const Instant<double>& x, Quantity quantity) {
   switch (quantity) {
     case Quantity::time:
       return x.time;
@@ -19,8 +19,8 @@ double channel_of(const Instant<double>& x, Quantity quantity) {
       return x.motor_angle;
     case Quantity::load_angle:
       return x.load_angle;
-    case Quantity::torsion:
-      return x.motor_angle / x.gear_ratio - x.load_angle;
+    case Quantity::torsion:  // a specimen's motion is that of both shafts
+      return rig == Rig::specimen ? x.motor_angle : x.motor_angle / x.gear_ratio - x.load_angle;
     case Quantity::velocity:
       return x.load_speed;
     case Quantity::transmitted_torque:
@@ -145,7 +145,7 @@ Result<Recording> record_of(const RigRow& row, const RigSystem& system, std::spa
   recording.time.assign(times.begin(), times.end());
   for (Quantity quantity : row.outputs) {
     std::vector<double> signal;
-    for (const auto& x : path) signal.push_back(channel_of(x, quantity));
+    for (const auto& x : path) signal.push_back(channel_of(row.rig, x, quantity));
     auto done = apply_instruments(system.drive().torsion, quantity, path, signal);
     if (!done) return tl::unexpected(done.error());
     recording.channels[quantity] = std::move(signal);
