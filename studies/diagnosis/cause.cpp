@@ -10,8 +10,7 @@ std::vector<const CauseForm*> forms_on(const CauseRow& row, const Frame& frame) 
     const bool exists = std::ranges::count(form.rigs, frame.rig) > 0;
     const bool seen =
         std::ranges::any_of(form.at, [&](Equation equation) { return frame.has(equation); });
-    const bool fits =
-        frame.rig != Rig::specimen || (frame.travels ? !form.wound_only : !form.travels_only);
+    const bool fits = form.where == nullptr || form.where(frame);
     if (exists && seen && fits) list.push_back(&form);
   }
   return list;

@@ -44,9 +44,8 @@ struct CauseForm {
   void (*transform)(Frame&, std::span<const double>) = nullptr;
   /// Start of the shapes of a transform, from the recordings; without it the grid is searched.
   std::vector<double> (*start)(const Frame&) = nullptr;
-  bool nonnegative = false;   ///< a_k >= 0
-  bool travels_only = false;  ///< on a specimen: only where an angle travels
-  bool wound_only = false;    ///< on a specimen: only where it is wound up, not where it travels
+  bool nonnegative = false;               ///< a_k >= 0
+  bool (*where)(const Frame&) = nullptr;  ///< what the recordings must be like; nullptr: anything
   /// What it is in a model file, by the catalogue of effects.
   Counterpart (*counterpart)(const FittedCause&) = nullptr;
   std::string_view no_counterpart = {};  ///< why there is none

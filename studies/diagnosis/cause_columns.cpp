@@ -12,6 +12,12 @@ namespace flexspline::studies {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
+bool travels(const Frame& frame) { return frame.rig != Rig::specimen || frame.travels; }
+
+bool wound_up(const Frame& frame) { return frame.rig != Rig::specimen || !frame.travels; }
+
+bool geared(const Frame& frame) { return frame.rig == Rig::free || frame.ratio > 1.0; }
+
 Columns sine_pair(const ArrayXd& x, double order, const ArrayXd& factor) {
   return {(order * x).sin() * factor, (order * x).cos() * factor};
 }

@@ -6,7 +6,17 @@ namespace flexspline::studies {
 
 inline const std::vector<Rig> kDrives = {Rig::locked, Rig::free};
 inline const std::vector<Rig> kMotors = {Rig::locked, Rig::free, Rig::servo};
+inline const std::vector<Rig> kTurning = {Rig::free, Rig::servo};
 inline const std::vector<Rig> kAnyRig = {Rig::locked, Rig::free, Rig::specimen};
+
+/// On a specimen: an angle that travels. Other rigs' angles do.
+bool travels(const Frame& frame);
+
+/// On a specimen: one that is wound up and does not travel. Other rigs' transmissions are.
+bool wound_up(const Frame& frame);
+
+/// The motor turns by a gear ratio that is known.
+bool geared(const Frame& frame);
 
 /// sin(k x) and cos(k x), each times a factor.
 Columns sine_pair(const Eigen::ArrayXd& x, double order, const Eigen::ArrayXd& factor);

@@ -37,10 +37,10 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   if (!frame) return tl::unexpected(frame.error());
   if (progress) progress(0.1, "fitting the baseline");
   const Limits limits;
-  const auto selection = select_causes(*frame, limits, progress);
+  auto selection = select_causes(*frame, limits, progress);
   if (!selection) return tl::unexpected(selection.error());
   if (progress) progress(0.75, "proving on recordings held out");
-  const auto proof = prove(*frame, *selection);
+  const auto proof = confirm(*frame, limits, *selection);
   if (!proof) return tl::unexpected(proof.error());
   if (progress) progress(0.9, "comparing the candidates");
   Diagnosis d;

@@ -220,4 +220,17 @@ Result<Proof> prove(const Frame& frame, const Selection& s) {
   return proof;
 }
 
+Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
+  while (true) {
+    auto proof = prove(frame, s);
+    if (!proof) return proof;
+    const auto worst = std::ranges::max_element(proof->cause_ratio);
+    if (worst == proof->cause_ratio.end() || !(*worst >= limits.held_out)) return proof;
+    const auto left_out =
+        leave_out(frame, limits, s, static_cast<std::size_t>(worst - proof->cause_ratio.begin()),
+                  "it does not lower the error on recordings held out");
+    if (!left_out) return tl::unexpected(left_out.error());
+  }
+}
+
 }  // namespace flexspline::studies

@@ -147,6 +147,18 @@ double size_of(const Frame& frame, const Findings& findings, const Trial& trial)
   return size;
 }
 
+// What the baseline does not take back of a cause.
+double change_of(const Frame& frame, const Findings& findings, const Trial& trial) {
+  double change = 0.0;
+  for (Equation equation : trial.cause.form->at) {
+    if (!frame.has(equation)) continue;
+    const std::size_t e = index_of(equation);
+    const ArrayXd part = trial.fit.prediction[e] - findings.fit.prediction[e];
+    change = std::max(change, (part.abs() * frame.usable).maxCoeff() / torque_of(frame, equation));
+  }
+  return change;
+}
+
 double rows_weighted(const Findings& findings, Equation equation) {
   return static_cast<double>((findings.weight[index_of(equation)] > 0.0).count());
 }
@@ -219,6 +231,7 @@ Trial refined(const Frame& frame, const Findings& findings, const FirstLook& loo
   const double misfit = excess(frame, findings, findings.fit);
   trial.removed = misfit > 0.0 ? std::clamp(trial.gain / misfit, 0.0, 1.0) : kNotComputed;
   trial.size = size_of(frame, findings, trial);
+  trial.change = change_of(frame, findings, trial);
   return trial;
 }
 

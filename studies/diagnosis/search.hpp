@@ -31,6 +31,7 @@ struct Trial {
   int parameters = 0;
   double removed = 0.0;  ///< share of the misfit beyond noise, at most 1
   double size = 0.0;     ///< largest contribution over the largest torque of its equation
+  double change = 0.0;   ///< largest change of the prediction over the same: what is seen of it
 };
 
 /// The baseline, weighted by the noise that it leaves.

@@ -5,87 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/explanation.hpp"
+
 namespace flexspline::studies {
 namespace {
 
 constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
-  if (trial.cause.row == nullptr || trial.net_gain < limits.net_gain) return false;
-  return trial.cause.form->transform != nullptr || trial.size < limits.taken_up;
-}
-
-// Sums of squares of an equation with the same weights: before, after, and what noise asks for.
-struct Misfit {
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-};
-
-Misfit misfit_of(const Findings& base, const Findings& final, Equation equation) {
-  const std::size_t e = index_of(equation);
-  const auto& weight = final.weight[e];
-  return {(base.fit.residual[e] * weight).square().sum(),
-          (final.fit.residual[e] * weight).square().sum(),
-          static_cast<double>((weight > 0.0).count())};
-}
-
-void measure_success(const Frame& frame, Selection& s) {
-  double before = 0.0;
-  double after = 0.0;
-  for (Equation equation : frame.equations) {
-    const Misfit m = misfit_of(s.baseline, s.final, equation);
-    const double colour = s.final.noise[index_of(equation)].colour;
-    before += std::max(m.before - m.noise, 0.0) / colour;
-    after += std::max(m.after - m.noise, 0.0) / colour;
-  }
-  s.removed = before > 0.0 ? std::clamp(1.0 - after / before, 0.0, 1.0) : 0.0;
-}
-
-bool is_left(const CoordinateScore& score, const Limits& limits) {
-  return score.statistic > limits.remainder && score.share > limits.remainder_share;
-}
-
-double worst_misfit(const Frame& frame, const Findings& findings) {
-  double worst = 0.0;
-  for (Equation equation : frame.equations) {
-    const Misfit m = misfit_of(findings, findings, equation);
-    worst = std::max(worst, m.after / m.noise);
-  }
-  return worst;
-}
-
-/// Weighted sums of squares over all equations: what the causes took, what a coordinate still
-/// orders, and what there was.
-struct Balance {
-  double taken = 0.0;
-  double ordered = 0.0;
-  double before = 0.0;
-};
-
-Balance balance_of(const Frame& frame, const Selection& s) {
-  Balance b;
-  for (Equation equation : frame.equations) {
-    const Misfit m = misfit_of(s.baseline, s.final, equation);
-    b.before += m.before;
-    b.taken += m.before - m.after;
-    for (const CoordinateScore& score : s.after) {
-      if (score.equation != equation) continue;
-      b.ordered += score.share * m.after;
-      break;
-    }
-  }
-  return b;
-}
-
-// The causes stand where they leave little that anything could order, and remove most of the
-// misfit, or leave no more than noise does.
-bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits) {
-  const Balance b = balance_of(frame, s);
-  const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
-  if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;
-  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit ||
-         b.taken > limits.half * b.before;
+  return trial.cause.row != nullptr && trial.net_gain >= limits.net_gain &&
+         !is_taken_up(trial, limits);
 }
 
 double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
@@ -138,8 +67,13 @@ Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selecti
       without.push_back(std::move(*fit));
     }
     const auto least = static_cast<std::size_t>(std::ranges::min_element(loss) - loss.begin());
-    if (loss[least] > limits.net_gain && !in_the_shadow(s, least, loss, limits)) break;
+    const bool needed = loss[least] > limits.net_gain;
+    if (needed && !in_the_shadow(s, least, loss, limits)) break;
     s.final.fit = std::move(without[least]);
+    s.accepted[least].withdrawn_because =
+        needed ? "what it explains is no more than the form of a larger one may miss"
+               : "the others explain it as well";
+    if (s.accepted[least].material) s.withdrawn.push_back(std::move(s.accepted[least]));
     s.accepted.erase(s.accepted.begin() + static_cast<long>(least));
     const auto again = refresh(frame, s.final, kRefreshSteps);
     if (!again) return again;
@@ -218,15 +152,61 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
   return {};
 }
 
-void withdraw(Selection& s) {
-  s.withdrawn = std::move(s.accepted);
-  s.accepted.clear();
+void judge(const Frame& frame, Selection& s) {
+  s.after = locate(frame, s.final);
+  s.removed = misfit_removed(frame, s);
+}
+
+// Takes a cause out of the model; the others are not fitted again.
+Result<void> take_out(const Frame& frame, Selection& s, std::size_t i, std::string_view because) {
+  auto fit = reduced(frame, s.final, s.immaterial.size() + i, kRefreshSteps);
+  if (!fit) return tl::unexpected(fit.error());
+  s.final.fit = std::move(*fit);
+  s.accepted[i].withdrawn_because = because;
+  s.withdrawn.insert(s.withdrawn.begin(), std::move(s.accepted[i]));
+  s.accepted.erase(s.accepted.begin() + static_cast<long>(i));
+  return {};
+}
+
+Result<void> fit_again(const Frame& frame, Selection& s) {
+  if (!s.accepted.empty()) return refresh(frame, s.final, kRefreshSteps);
   s.final = s.baseline;
-  s.after = s.before;
-  s.removed = 0.0;
+  return {};
+}
+
+// Causes that explain too little are withdrawn, but for those that clear what they order.
+Result<void> withdraw(const Frame& frame, const Limits& limits, Selection& s) {
+  const bool few = s.accepted.size() <= limits.causes;
+  for (std::size_t i = s.accepted.size(); i > 0; --i) {
+    if (few && clears_its_coordinate(s, s.accepted[i - 1], limits)) continue;
+    const auto taken =
+        take_out(frame, s, i - 1,
+                 few ? "what it leaves is no noise, and no effect tried takes it away"
+                     : "so many causes together stand for something that has no name here");
+    if (!taken) return taken;
+  }
+  return fit_again(frame, s);
+}
+
+Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
+  judge(frame, s);
+  const bool stands = s.accepted.empty() || explains_enough(frame, s, limits);
+  if (!stands) {
+    const auto done = withdraw(frame, limits, s);
+    if (!done) return done;
+    judge(frame, s);
+  }
+  s.remainder = !stands || (!s.after.empty() && is_left(s.after.front(), limits)) ||
+                worst_misfit(frame, s.final) > 2.0 * limits.misfit;
+  return {};
 }
 
 }  // namespace
+
+bool is_taken_up(const Trial& trial, const Limits& limits) {
+  return trial.cause.form->transform == nullptr && trial.size >= limits.taken_up &&
+         trial.change < trial.size;
+}
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress) {
@@ -243,12 +223,18 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   const auto based = fit_baseline_again(frame, s);
   if (!based) return tl::unexpected(based.error());
   s.before = locate(frame, s.baseline);
-  s.after = locate(frame, s.final);
-  measure_success(frame, s);
-  if (!s.accepted.empty() && !explains_enough(frame, s, limits)) withdraw(s);
-  s.remainder = (!s.after.empty() && is_left(s.after.front(), limits)) ||
-                worst_misfit(frame, s.final) > 2.0 * limits.misfit;
+  const auto concluded = conclude(frame, limits, s);
+  if (!concluded) return tl::unexpected(concluded.error());
   return s;
+}
+
+Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& s, std::size_t cause,
+                       std::string_view because) {
+  const auto taken = take_out(frame, s, cause, because);
+  if (!taken) return taken;
+  const auto fitted = fit_again(frame, s);
+  if (!fitted) return fitted;
+  return conclude(frame, limits, s);
 }
 
 }  // namespace flexspline::studies

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/locate.hpp"
@@ -23,6 +24,8 @@ struct Limits {
   double explained = 0.75;       ///< share of the misfit that the causes have to remove
   double half = 0.5;             ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;           ///< mean square over noise that counts as explained
+  double held_out = 1.0;         ///< error on recordings held out with a cause over without it
+  std::size_t causes = 3;        ///< more together are a stand-in for something without a name
   int rounds = 7;
 };
 
@@ -33,6 +36,7 @@ struct Accepted {
   std::vector<Trial> rivals;  ///< alternatives, best first
   std::vector<Trial> field;   ///< every other cause refined in that round
   bool material = true;       ///< else it is in the model, but too small to be named
+  std::string_view withdrawn_because = {};
 };
 
 /// The end of the search.
@@ -49,10 +53,17 @@ struct Selection {
   std::vector<Accepted> withdrawn;      ///< causes that explain too little to be named
 };
 
+/// True for columns that the baseline counteracts: large, and larger than what is seen of them.
+bool is_taken_up(const Trial& trial, const Limits& limits);
+
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. What is too small to matter becomes part of the baseline. Causes that together leave
 /// most of the misfit are withdrawn.
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress);
+
+/// Withdraws one of the accepted causes, fits the others again and judges what they explain.
+Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& selection,
+                       std::size_t cause, std::string_view because);
 
 }  // namespace flexspline::studies

@@ -97,16 +97,15 @@ Eigen::VectorXd change_of(const Frame& frame, const Findings& findings, const Tr
   return change;
 }
 
-std::string outcome_of(const Trial& t, bool accepted, bool rival, bool withdrawn,
-                       const Limits& limits) {
-  if (withdrawn && accepted)
-    return "withdrawn: what it leaves is no noise, and no effect tried takes it away";
-  if (accepted) return "accepted";
+std::string outcome_of(const Accepted& a) {
+  if (a.withdrawn_because.empty()) return "accepted";
+  return fmt::format("withdrawn: {}", a.withdrawn_because);
+}
+
+std::string outcome_of(const Trial& t, bool rival, const Limits& limits) {
   if (rival) return "explains the same signal nearly as well: an alternative";
   if (t.net_gain < limits.net_gain) return "gains no more than noise would";
-  if (t.cause.form->transform == nullptr && t.size > limits.taken_up) {
-    return "what it adds is taken up by the baseline";
-  }
+  if (is_taken_up(t, limits)) return "what it adds is taken up by the baseline";
   return "gains less than the accepted one";
 }
 
@@ -119,15 +118,12 @@ TriedCandidate tried(const Trial& t, int round, std::string outcome) {
           .outcome = std::move(outcome)};
 }
 
-void add_round(const Accepted& a, int round, bool withdrawn, const Limits& limits,
+void add_round(const Accepted& a, int round, const Limits& limits,
                std::vector<TriedCandidate>& list) {
-  list.push_back(tried(a.trial, round, outcome_of(a.trial, true, false, withdrawn, limits)));
-  for (const Trial& t : a.rivals) {
-    list.push_back(tried(t, round, outcome_of(t, false, true, withdrawn, limits)));
-  }
+  list.push_back(tried(a.trial, round, outcome_of(a)));
+  for (const Trial& t : a.rivals) list.push_back(tried(t, round, outcome_of(t, true, limits)));
   for (const Trial& t : a.field) {
-    if (t.cause.row == nullptr) continue;
-    list.push_back(tried(t, round, outcome_of(t, false, false, withdrawn, limits)));
+    if (t.cause.row != nullptr) list.push_back(tried(t, round, outcome_of(t, false, limits)));
   }
 }
 
@@ -222,12 +218,12 @@ std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& lim
                          fmt::format("there, but {:.2g} % of torque is too small to be named",
                                      100.0 * a.trial.size)));
   }
-  for (const Accepted& a : s.accepted) add_round(a, ++round, false, limits, list);
-  for (const Accepted& a : s.withdrawn) add_round(a, ++round, true, limits, list);
+  for (const Accepted& a : s.accepted) add_round(a, ++round, limits, list);
+  for (const Accepted& a : s.withdrawn) add_round(a, ++round, limits, list);
   ++round;
   for (const Trial& t : s.last_field) {
     if (t.cause.row == nullptr) continue;
-    list.push_back(tried(t, round, outcome_of(t, false, false, false, limits)));
+    list.push_back(tried(t, round, outcome_of(t, false, limits)));
   }
   return list;
 }

@@ -73,7 +73,7 @@ CauseRow describe_kinematic_error() {
                      .at = {Equation::torsion},
                      .shapes = turns,
                      .columns = torque_wound_up,
-                     .travels_only = true,
+                     .where = travels,
                      .no_counterpart = kNoTorsion}}};
 }
 

@@ -42,16 +42,18 @@ CauseRow describe_motor_torque_ripple() {
   return {.id = "motor_torque_ripple",
           .coordinate = "motor_angle",
           .forms = {{.equation = "tau_f += a sin k theta_m + b cos k theta_m",
-                     .rigs = {Rig::free},
+                     .rigs = kTurning,
                      .at = {Equation::motor},
                      .shapes = turns,
                      .columns = ripple,
+                     .where = geared,
                      .counterpart = cogging},
                     {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m)",
-                     .rigs = {Rig::free},
+                     .rigs = kTurning,
                      .at = {Equation::motor},
                      .shapes = turns,
                      .columns = ripple_under_current,
+                     .where = geared,
                      .counterpart = under_current}}};
 }
 

@@ -59,7 +59,7 @@ CauseRow describe_nonlinear_viscous_friction() {
                      .shapes = shapes,
                      .columns = columns,
                      .nonnegative = true,
-                     .travels_only = true,
+                     .where = travels,
                      .counterpart = counterpart,
                      .no_counterpart =
                          "the catalogue of effects has power laws at the motor, not "

@@ -78,21 +78,22 @@ CauseRow describe_position_dependent_friction() {
           .coordinate = "motor_angle",
           .forms = {
               {.equation = "tau_f += sum_k (a_k sin k theta_m + b_k cos k theta_m) sgn w, k = 1, 2",
-               .rigs = {Rig::free},
+               .rigs = kTurning,
                .at = {Equation::motor},
                .columns = at_motor,
+               .where = geared,
                .counterpart = motor_waves},
               {.equation = "tau += sum_k (a_k sin k N q + b_k cos k N q) sgn q', k = 1, 2",
                .rigs = {Rig::specimen},
                .at = {Equation::torsion},
                .columns = at_joint,
-               .travels_only = true,
+               .where = travels,
                .counterpart = joint_waves},
               {.equation = "tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel",
                .rigs = {Rig::specimen},
                .at = {Equation::torsion},
                .columns = along_travel,
-               .travels_only = true,
+               .where = travels,
                .counterpart = travel_waves}}};
 }
 

@@ -11,6 +11,13 @@ std::vector<Shape> delay(const Frame& f) {
   return {{.name = "delay", .unit = "s", .lower = -most, .upper = most, .logarithmic = false}};
 }
 
+std::vector<Shape> long_delay(const Frame& f) {
+  auto shapes = delay(f);
+  shapes[0].lower *= 2.0;
+  shapes[0].upper *= 2.0;
+  return shapes;
+}
+
 std::vector<double> small(const Frame& f) { return {0.01 / fastest(f)}; }
 
 // A torque that is late shows the motion of d ago.
@@ -18,6 +25,14 @@ void motion_of_then(Frame& f, Values shape) {
   const double d = shape[0];
   f.torsion += -d * f.torsion_rate + 0.5 * d * d * f.torsion_acceleration;
   f.torsion_rate -= d * f.torsion_acceleration;
+}
+
+// The same of an angle that travels, where a delay may be long against a reversal.
+void travel_of_then(Frame& f, Values shape) {
+  for (ArrayXd* motion : {&f.torsion, &f.torsion_rate, &f.torsion_acceleration, &f.motor_angle,
+                          &f.motor_speed, &f.load_angle}) {
+    *motion = later(f, *motion, -shape[0]);
+  }
 }
 
 // The smooth part as it is d later, with the noise of the sample itself.
@@ -45,7 +60,15 @@ CauseRow describe_sensor_delay() {
                      .shapes = delay,
                      .transform = motion_of_then,
                      .start = small,
-                     .wound_only = true,
+                     .where = wound_up,
+                     .counterpart = torque_late},
+                    {.equation = "tau_measured(t) = tau(t - d)",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = long_delay,
+                     .transform = travel_of_then,
+                     .start = small,
+                     .where = travels,
                      .counterpart = torque_late},
                     {.equation = "tau_measured(t) = tau(t - d)",
                      .rigs = kDrives,

@@ -32,7 +32,7 @@ CauseRow describe_soft_windup() {
                      .at = {Equation::torsion},
                      .shapes = knee,
                      .columns = stiffening,
-                     .wound_only = true,
+                     .where = wound_up,
                      .counterpart = as_windup}}};
 }
 

@@ -60,7 +60,7 @@ CauseRow describe_viscoelastic_creep() {
                      .at = {Equation::torsion},
                      .columns = branches,
                      .nonnegative = true,
-                     .wound_only = true,
+                     .where = wound_up,
                      .counterpart = as_branches}}};
 }
 
