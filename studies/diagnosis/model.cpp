@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "diagnosis/baseline.hpp"
+#include "diagnosis/model_columns.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -17,10 +17,6 @@ using estimators::ShapeBound;
 
 constexpr double kMostZeroError = 0.1;  // of the torsion, over its range
 constexpr double kFree = -std::numeric_limits<double>::infinity();
-
-bool acts_on(const ActiveCause& cause, Equation equation) {
-  return std::ranges::count(cause.form->at, equation) > 0;
-}
 
 // Searched in the logarithm where a shape is.
 double inner(const Shape& shape, double value) {
@@ -101,63 +97,25 @@ class Layout {
   std::vector<std::vector<Shape>> shapes_;
 };
 
-std::span<const double> shape_of(const DriveModel& model, Equation equation) {
-  if (equation == Equation::torsion) return model.torsion_shape;
-  return {};
-}
-
-/// The frame as the causes of a model that change it leave it.
-struct Transformed {
-  Transformed(const Frame& frame, const DriveModel& model) : seen(&frame) {
-    for (const ActiveCause& cause : model.causes) {
-      if (cause.form->transform == nullptr) continue;
-      if (!changed) changed = frame;
-      cause.form->transform(*changed, cause.shape);
-    }
-    if (!changed) return;
-    changed->measure_torsion();
-    seen = &*changed;
-  }
-  std::optional<Frame> changed;
-  const Frame* seen;
-};
-
-/// One equation before weighting: baseline and cause columns side by side.
-struct EquationColumns {
-  BaselineColumns own;
-  std::vector<std::vector<ArrayXd>> causes;
-};
-
-EquationColumns columns_of(const Frame& frame, const DriveModel& model, const Reference& reference,
-                           Equation equation) {
-  EquationColumns c{baseline_columns(frame, equation, shape_of(model, equation)), {}};
-  for (const ActiveCause& cause : model.causes) {
-    c.causes.emplace_back();
-    if (cause.form->columns == nullptr || !acts_on(cause, equation)) continue;
-    c.causes.back() = cause.form->columns(equation, frame, reference, cause.shape);
-  }
-  return c;
-}
-
 /// Linear parameters: the baseline's by equation, then the causes'.
 struct LinearLayout {
   std::vector<Index> own_at, own_size, cause_at, cause_size;
   Eigen::VectorXd lower;
 };
 
-LinearLayout linear_layout(const Frame& frame, const DriveModel& model, const Reference& reference,
+LinearLayout linear_layout(ModelColumns& columns, const DriveModel& model,
                            const std::vector<Equation>& equations) {
   LinearLayout layout;
   std::vector<double> lower;
   layout.cause_size.assign(model.causes.size(), 0);
-  const Transformed frames(frame, model);
   for (Equation equation : equations) {
-    const auto c = columns_of(*frames.seen, model, reference, equation);
+    const auto c = columns.at(model, equation);
     layout.own_at.push_back(static_cast<Index>(lower.size()));
-    layout.own_size.push_back(c.own.lower.size());
-    lower.insert(lower.end(), c.own.lower.begin(), c.own.lower.end());
+    layout.own_size.push_back(c.own->lower.size());
+    lower.insert(lower.end(), c.own->lower.begin(), c.own->lower.end());
     for (std::size_t k = 0; k < c.causes.size(); ++k) {
-      layout.cause_size[k] = std::max(layout.cause_size[k], static_cast<Index>(c.causes[k].size()));
+      layout.cause_size[k] =
+          std::max(layout.cause_size[k], static_cast<Index>(c.causes[k]->size()));
     }
   }
   for (std::size_t k = 0; k < model.causes.size(); ++k) {
@@ -179,7 +137,7 @@ SeparableBlock weighted_block(const EquationColumns& c, const ArrayXd& target,
   for (Index k = 0; k < layout.own_size[e]; ++k) block.index.push_back(layout.own_at[e] + k);
   Index width = layout.own_size[e];
   for (std::size_t k = 0; k < c.causes.size(); ++k) {
-    for (std::size_t j = 0; j < c.causes[k].size(); ++j) {
+    for (std::size_t j = 0; j < c.causes[k]->size(); ++j) {
       block.index.push_back(layout.cause_at[k] + static_cast<Index>(j));
       ++width;
     }
@@ -187,11 +145,11 @@ SeparableBlock weighted_block(const EquationColumns& c, const ArrayXd& target,
   const Eigen::VectorXd w = weight(rows);
   block.columns.resize(static_cast<Index>(rows.size()), width);
   for (Index k = 0; k < layout.own_size[e]; ++k) {
-    block.columns.col(k) = c.own.columns.col(k)(rows).cwiseProduct(w);
+    block.columns.col(k) = c.own->columns.col(k)(rows).cwiseProduct(w);
   }
   Index next = layout.own_size[e];
   for (const auto& list : c.causes) {
-    for (const ArrayXd& column : list) {
+    for (const ArrayXd& column : *list) {
       block.columns.col(next++) = Eigen::VectorXd(column(rows)).cwiseProduct(w);
     }
   }
@@ -218,22 +176,22 @@ int count_free(const Eigen::VectorXd& b, const Eigen::VectorXd& lower, std::size
 }
 
 ArrayXd prediction_of(const EquationColumns& c, const DriveModel& model, Equation equation) {
-  ArrayXd sum = (c.own.columns * model.own[index_of(equation)]).array();
+  ArrayXd sum = (c.own->columns * model.own[index_of(equation)]).array();
   for (std::size_t k = 0; k < c.causes.size(); ++k) {
-    for (std::size_t j = 0; j < c.causes[k].size(); ++j) {
-      sum += model.coefficients[k][static_cast<Index>(j)] * c.causes[k][j];
+    for (std::size_t j = 0; j < c.causes[k]->size(); ++j) {
+      sum += model.coefficients[k][static_cast<Index>(j)] * (*c.causes[k])[j];
     }
   }
   return sum;
 }
 
-void fill_residuals(const Frame& frame, const Reference& reference,
+void fill_residuals(const Frame& frame, ModelColumns& columns,
                     const std::vector<Equation>& equations, ModelFit& fit) {
-  const Transformed frames(frame, fit.model);
   for (Equation equation : equations) {
     const std::size_t e = index_of(equation);
-    const auto c = columns_of(*frames.seen, fit.model, reference, equation);
-    fit.residual[e] = target_of(*frames.seen, equation) - prediction_of(c, fit.model, equation);
+    const auto c = columns.at(fit.model, equation);
+    fit.residual[e] =
+        target_of(columns.seen(fit.model), equation) - prediction_of(c, fit.model, equation);
     fit.prediction[e] =
         (equation == Equation::motor ? frame.motor_torque : frame.torque) - fit.residual[e];
   }
@@ -255,17 +213,17 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
                            const std::vector<Equation>& equations, const DriveModel& start,
                            const Reference& reference, int most_steps) {
   const Layout layout(frame, equations, start);
-  const LinearLayout linear = linear_layout(frame, start, reference, equations);
+  ModelColumns columns(frame, reference);
+  const LinearLayout linear = linear_layout(columns, layout.at(layout.shapes_start()), equations);
   estimators::SeparableProblem problem;
   problem.lower = linear.lower;
   problem.shapes = layout.bounds();
   problem.assemble = [&](std::span<const double> q) {
     const DriveModel model = layout.at(q);
-    const Transformed frames(frame, model);
     std::vector<SeparableBlock> blocks;
     for (std::size_t e = 0; e < equations.size(); ++e) {
-      blocks.push_back(weighted_block(columns_of(*frames.seen, model, reference, equations[e]),
-                                      target_of(*frames.seen, equations[e]),
+      blocks.push_back(weighted_block(columns.at(model, equations[e]),
+                                      target_of(columns.seen(model), equations[e]),
                                       weight[index_of(equations[e])], linear, e));
     }
     return blocks;
@@ -280,7 +238,7 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
   }
   fit.free_parameters = count_free(solved->b, linear.lower, solved->q.size());
   fit.evaluations = solved->evaluations;
-  fill_residuals(frame, reference, equations, fit);
+  fill_residuals(frame, columns, equations, fit);
   return fit;
 }
 
@@ -293,7 +251,8 @@ ModelFit evaluate(const Frame& frame, const DriveModel& model, const Reference& 
       known.push_back(equation);
     }
   }
-  fill_residuals(frame, reference, known, fit);
+  ModelColumns columns(frame, reference);
+  fill_residuals(frame, columns, known, fit);
   return fit;
 }
 
@@ -303,10 +262,10 @@ ArrayXd motor_sign(const Frame& frame, const DriveModel& model) {
   if (model.own.size() <= e || model.own[e].size() == 0) {
     return rounded_sign(frame.motor_speed, narrow);
   }
-  const auto own = baseline_columns(frame, Equation::motor, {});
-  const Eigen::VectorXd dry = model.own[e].segment(own.elastic, own.dissipative);
+  const auto own = shared_baseline(frame, Equation::motor, {});
+  const Eigen::VectorXd dry = model.own[e].segment(own->elastic, own->dissipative);
   if (!(dry.sum() > 0.0)) return rounded_sign(frame.motor_speed, narrow);
-  return (own.columns.middleCols(own.elastic, own.dissipative) * dry).array() / dry.sum();
+  return (own->columns.middleCols(own->elastic, own->dissipative) * dry).array() / dry.sum();
 }
 
 Reference reference_of(const Frame& frame, const DriveModel& model) {
@@ -317,12 +276,12 @@ Reference reference_of(const Frame& frame, const DriveModel& model) {
   reference.torsion_coulomb_rate = coulomb_width(frame, model.torsion_shape);
   const std::size_t e = index_of(Equation::torsion);
   if (model.own.size() <= e || model.own[e].size() == 0) return reference;
-  const Transformed frames(frame, model);
-  const auto own = baseline_columns(*frames.seen, Equation::torsion, model.torsion_shape);
+  ModelColumns columns(frame, reference);
+  const auto own = shared_baseline(columns.seen(model), Equation::torsion, model.torsion_shape);
   const Eigen::VectorXd& b = model.own[e];
-  reference.elastic = (own.columns.leftCols(own.elastic) * b.head(own.elastic)).array();
-  reference.dissipative = (own.columns.middleCols(own.elastic, own.dissipative) *
-                           b.segment(own.elastic, own.dissipative))
+  reference.elastic = (own->columns.leftCols(own->elastic) * b.head(own->elastic)).array();
+  reference.dissipative = (own->columns.middleCols(own->elastic, own->dissipative) *
+                           b.segment(own->elastic, own->dissipative))
                               .array();
   return reference;
 }
