@@ -172,6 +172,48 @@ RecordingSet ramp() {
   return set;
 }
 
+/// A loop of a linear spring with a viscous damper, three cycles.
+RecordingSet loop() {
+  RecordingSet set;
+  set.name = "loop";
+  set.rig = Rig::specimen;
+  Recording recording;
+  recording.id = "sine";
+  std::vector<double> torsion;
+  std::vector<double> torque;
+  for (int i = 0; i < 300; ++i) {
+    const double angle = 2.0 * 3.141592653589793 * i / 100.0;
+    recording.time.push_back(0.01 * i);
+    torsion.push_back(0.01 * std::sin(angle));
+    torque.push_back(20.0 * std::sin(angle) + 2.0 * std::cos(angle));
+  }
+  recording.channels[Quantity::torsion] = torsion;
+  recording.channels[Quantity::torque] = torque;
+  set.recordings.push_back(recording);
+  return set;
+}
+
+// Replicates of a data set, and rows that differ by their names alone, are one fit: its time of
+// computing, which no second fit would repeat, tells.
+TEST_F(RunStudy, FitsTheSameDataByTheSameMethodOnce) {
+  ASSERT_TRUE(data::write_dataset(folder_.path() / "loop", loop()).has_value());
+  const std::string row = "method = \"trajectory_ceres\"\n";
+  const auto study =
+      load(kHead + "replicates = 2\n[[input]]\nid = \"loop\"\ndataset = \"loop\"\n" +
+           "[[estimator]]\nid = \"a\"\n" + row + "[[estimator]]\nid = \"b\"\n" + row +
+           "[[estimator]]\nid = \"c\"\n" + row + "options = { samples = 100 }\n");
+  const auto summary = run(study);
+  ASSERT_TRUE(summary.has_value()) << summary.error().message();
+  ASSERT_EQ(summary->computed, 6U);
+  const auto seconds = [&](const std::string& key) {
+    return artefact(key)["estimate"]["seconds"].get<double>();
+  };
+  EXPECT_EQ(seconds("loop--a--r0"), seconds("loop--a--r1"));
+  EXPECT_EQ(seconds("loop--a--r0"), seconds("loop--b--r1"));
+  EXPECT_NE(seconds("loop--a--r0"), seconds("loop--c--r0"));
+  EXPECT_NE(artefact("loop--a--r0")["depends_on"], artefact("loop--b--r0")["depends_on"]);
+}
+
 TEST_F(RunStudy, FailingCaseDoesNotStopTheStudy) {
   ASSERT_TRUE(data::write_dataset(folder_.path() / "ramp", ramp()).has_value());
   const auto study = load(kHead + kBench + kGrid +
