@@ -1,8 +1,11 @@
 #include "flexspline/reports/artefacts.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <iterator>
 #include <system_error>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+constexpr std::size_t kReaders = 16;  // threads
 
 std::vector<fs::path> json_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -43,6 +48,33 @@ auto read_one(const fs::path& path, std::string_view schema, Parse parse,
   } catch (const json::exception& error) {
     return refuse(error.what());
   }
+}
+
+/// The same of many files, several at once; in the order of the files.
+template <class Parse>
+auto read_all(const std::vector<fs::path>& files, std::string_view schema, Parse parse,
+              std::vector<std::string>& unreadable) {
+  using One = decltype(read_one(files.front(), schema, parse, unreadable));
+  std::vector<One> read(files.size());
+  std::vector<std::vector<std::string>> refused(files.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < files.size(); i = next++) {
+      read[i] = read_one(files[i], schema, parse, refused[i]);
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const std::size_t most = std::min<std::size_t>(std::thread::hardware_concurrency(), kReaders);
+    for (std::size_t k = 1; k < std::min(most, files.size()); ++k) helpers.emplace_back(work);
+    work();
+  }
+  std::vector<typename One::value_type> whole;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (read[i]) whole.push_back(std::move(*read[i]));
+    std::ranges::move(refused[i], std::back_inserter(unreadable));
+  }
+  return whole;
 }
 
 void keep_first_of_each_id(std::vector<Input>& inputs) {
@@ -76,15 +108,11 @@ const CaseRecording* Case::recording(const std::string& id) const {
 Result<Artefacts> read_artefacts(const fs::path& folder) {
   Artefacts artefacts;
   auto& unreadable = artefacts.unreadable;
-  for (const fs::path& path : json_files(folder / "inputs")) {
-    auto input = read_one(path, "flexspline-input/1", parse_input, unreadable);
-    if (input) artefacts.inputs.push_back(std::move(*input));
-  }
+  artefacts.inputs =
+      read_all(json_files(folder / "inputs"), "flexspline-input/1", parse_input, unreadable);
   keep_first_of_each_id(artefacts.inputs);
-  for (const fs::path& path : json_files(folder / "cases")) {
-    auto read = read_one(path, "flexspline-case/1", parse_case, unreadable);
-    if (read) artefacts.cases.push_back(std::move(*read));
-  }
+  artefacts.cases =
+      read_all(json_files(folder / "cases"), "flexspline-case/1", parse_case, unreadable);
   if (const fs::path path = folder / "paper.json"; fs::exists(path)) {
     artefacts.paper = read_one(path, "flexspline-paper/1", parse_paper, unreadable);
   }
