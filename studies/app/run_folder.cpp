@@ -40,7 +40,8 @@ void say_what_was_done(const studies::RunSummary& summary, Console& console) {
 
 Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study,
                                           const std::filesystem::path& folder, long jobs,
-                                          Console& console, std::filesystem::path& report) {
+                                          Console& console, std::filesystem::path& report,
+                                          const WhenComputed& when_computed) {
   const auto plan = studies::plan_study(study, build_id());
   if (!plan) return tl::unexpected(plan.error());
   for (const auto& [input, note] : plan->notes) console.say(fmt::format("{}: {}", input, note));
@@ -63,6 +64,9 @@ Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study,
                    "the same command goes on from here");
   }
   say_what_was_done(*summary, console);
+  if (when_computed) {
+    if (const auto used = when_computed(*summary); !used) return tl::unexpected(used.error());
+  }
   if (const auto written = studies::write_results(*plan, summary->rows, folder); !written) {
     return tl::unexpected(written.error());
   }
