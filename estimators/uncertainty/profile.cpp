@@ -12,6 +12,7 @@ namespace {
 constexpr int kTrials = 40;
 constexpr double kFar = 1e4;         // first steps without a rise that count as infinity
 constexpr double kLongest = 4.0;     // times the last step
+constexpr int kPatient = 3;          // steps along the line before larger ones are taken
 constexpr double kFirstShare = 0.1;  // of the typical size, where the covariance says nothing
 constexpr double kBetter = 1e-5;     // of the variance, that rounding may take off the cost
 
@@ -77,6 +78,7 @@ class Profile {
       if (!found) return tl::unexpected(found.error());
       cost = found->cost;
       evaluations += found->evaluations;
+      nearest_ = {distance, found->p};
     }
     const double rise = 2.0 * (cost - least_) / settings_.variance;
     if (rise < -std::max(kBetter, settings_.tolerance)) return better(distance, cost);
@@ -99,13 +101,21 @@ class Profile {
     return covariance_(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
   }
 
-  // The other parameters where a linear model would have them follow.
+  // How fast another parameter follows: as it did up to the last fit on this side, or as in a
+  // linear model.
+  double slope(std::size_t k, std::size_t position, double distance) const {
+    if (nearest_.distance * distance > 0.0) {
+      return (nearest_.rest[position] - p_[k]) / nearest_.distance;
+    }
+    const double variance = at(index_, index_);
+    return variance > 0.0 ? at(k, index_) / variance : 0.0;
+  }
+
   std::vector<BoundedParameter> others(double distance) const {
     std::vector<BoundedParameter> rest;
-    const double variance = at(index_, index_);
     for (std::size_t k = 0; k < p_.size(); ++k) {
       if (k == index_) continue;
-      const double slope = variance > 0.0 ? at(k, index_) / variance : 0.0;
+      const double slope = this->slope(k, rest.size(), distance);
       BoundedParameter one = parameters_[k];
       const double moved = p_[k] + (std::isfinite(slope) ? slope * distance : 0.0);
       one.start = std::clamp(moved, one.lower, one.upper);
@@ -123,9 +133,16 @@ class Profile {
         "the fit is not the minimum: start it from there");
   }
 
+  // A held fit: how far the parameter was held from the minimum, and the others.
+  struct HeldFit {
+    double distance = 0.0;
+    std::vector<double> rest;
+  };
+
   const LeastSquaresProblem& problem_;
   std::vector<BoundedParameter> parameters_;
   std::vector<double> p_;
+  HeldFit nearest_;
   const Eigen::MatrixXd& covariance_;
   std::size_t index_;
   const ProfileSettings& settings_;
@@ -138,10 +155,24 @@ struct Point {
 };
 
 // Between two points the root of the rise is nearly straight; halves where it is not.
-double next_distance(const Point& inside, const Point& outside, double quantile, bool halve) {
+double between(const Point& inside, const Point& outside, double quantile, bool halve) {
   if (!std::isfinite(outside.rise) || halve) return 0.5 * (inside.distance + outside.distance);
   const double share = (quantile - inside.rise) / (outside.rise - inside.rise);
   return inside.distance + share * (outside.distance - inside.distance);
+}
+
+// Where the line through the last two points reaches the quantile; not a number where it does not.
+double on_line(const Point& before, const Point& last, double quantile) {
+  const double steepness = (last.rise - before.rise) / (last.distance - before.distance);
+  return steepness > 0.0 ? last.distance + (quantile - last.rise) / steepness : kNotComputed;
+}
+
+// How far out to look next, where the profile has not yet been seen above the quantile.
+double further(const Point& before, const Point& last, double quantile, int trials) {
+  const double line = on_line(before, last, quantile);
+  if (trials < kPatient && line > last.distance) return std::min(line, kLongest * last.distance);
+  const double factor = last.rise > 0.0 ? 1.05 * quantile / last.rise : kLongest;
+  return last.distance * std::clamp(factor, 1.1, kLongest);
 }
 
 // Distance at which the profile reaches the quantile on one side; infinity where it does not.
@@ -151,24 +182,28 @@ Result<double> reach(Profile& profile, double sign, double quantile, double tole
   if (!(room > 0.0)) return std::numeric_limits<double>::infinity();
   Point inside;
   Point outside{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point before;
   double trial = first;
   std::optional<Error> failed;
   for (int k = 0; k < kTrials; ++k) {
     const auto rise = profile.rise(sign * trial);
     if (!rise) failed = rise.error();
     if (rise && std::abs(*rise - quantile) < tolerance * quantile) return trial;
-    if (rise && *rise < quantile) {
-      inside = {trial, *rise};
+    const Point last{trial, rise ? *rise : std::numeric_limits<double>::infinity()};
+    if (last.rise < quantile) {
+      inside = last;
       if (trial >= room || trial > kFar * first) return std::numeric_limits<double>::infinity();
     } else {
-      outside = {trial, rise ? *rise : std::numeric_limits<double>::infinity()};
+      outside = last;
     }
     if (std::isfinite(outside.distance)) {
-      trial = next_distance(inside, outside, quantile, k % 5 == 4);
-      continue;
+      trial = on_line(before, last, quantile);
+      const bool within = trial > inside.distance && trial < outside.distance;
+      if (!within || k % 5 == 4) trial = between(inside, outside, quantile, k % 5 == 4);
+    } else {
+      trial = std::min(further(before, last, quantile, k), room);
     }
-    const double factor = inside.rise > 0.0 ? 1.05 * quantile / inside.rise : kLongest;
-    trial = std::min(trial * std::clamp(factor, 1.1, kLongest), room);
+    before = last;
   }
   if (!std::isfinite(outside.rise) && failed) return tl::unexpected(*failed);
   return 0.5 * (inside.distance + std::min(outside.distance, kFar * first));
