@@ -18,11 +18,12 @@ constexpr double kUnbounded = 2e19;  // Ipopt's infinity is 1e19
 std::span<const double> view(const Number* x, Index n) { return {x, static_cast<std::size_t>(n)}; }
 std::span<double> view(Number* x, Index n) { return {x, static_cast<std::size_t>(n)}; }
 
-// Ipopt asks for a matrix once for its places and then for its values.
+// Ipopt asks for a matrix once for its places, of which it keeps a copy, and then for its values.
 template <class Fill>
-bool places_or_values(const SparsePattern& pattern, Index* row, Index* column, Number* values,
-                      Fill fill) {
-  if (values != nullptr) return fill(view(values, static_cast<Index>(pattern.size())));
+bool places_or_values(SparsePattern (SparseNlp::*pattern_of)() const, const SparseNlp& nlp,
+                      Index* row, Index* column, Index entries, Number* values, Fill fill) {
+  if (values != nullptr) return fill(view(values, entries));
+  const SparsePattern pattern = (nlp.*pattern_of)();
   std::ranges::copy(pattern.row, row);
   std::ranges::copy(pattern.column, column);
   return true;
@@ -30,18 +31,14 @@ bool places_or_values(const SparsePattern& pattern, Index* row, Index* column, N
 
 class Bridge final : public Ipopt::TNLP {
  public:
-  Bridge(const SparseNlp& nlp, std::span<const double> start)
-      : nlp_(nlp),
-        start_(start),
-        jacobian_(nlp.jacobian_pattern()),
-        hessian_(nlp.hessian_pattern()) {}
+  Bridge(const SparseNlp& nlp, std::span<const double> start) : nlp_(nlp), start_(start) {}
 
   bool get_nlp_info(Index& n, Index& m, Index& in_jacobian, Index& in_hessian,
                     IndexStyleEnum& style) override {
     n = static_cast<Index>(nlp_.variables());
     m = static_cast<Index>(nlp_.constraints());
-    in_jacobian = static_cast<Index>(jacobian_.size());
-    in_hessian = static_cast<Index>(hessian_.size());
+    in_jacobian = static_cast<Index>(nlp_.jacobian_pattern().size());
+    in_hessian = static_cast<Index>(nlp_.hessian_pattern().size());
     style = C_STYLE;
     return true;
   }
@@ -77,16 +74,17 @@ class Bridge final : public Ipopt::TNLP {
     ++solution.evaluations;
     return nlp_.constraint(view(x, n), view(c, m));
   }
-  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* row, Index* column,
+  bool eval_jac_g(Index n, const Number* x, bool, Index, Index entries, Index* row, Index* column,
                   Number* values) override {
-    return places_or_values(jacobian_, row, column, values,
+    return places_or_values(&SparseNlp::jacobian_pattern, nlp_, row, column, entries, values,
                             [&](std::span<double> out) { return nlp_.jacobian(view(x, n), out); });
   }
   bool eval_h(Index n, const Number* x, bool, Number factor, Index m, const Number* lambda, bool,
-              Index, Index* row, Index* column, Number* values) override {
-    return places_or_values(hessian_, row, column, values, [&](std::span<double> out) {
-      return nlp_.hessian(view(x, n), factor, view(lambda, m), out);
-    });
+              Index entries, Index* row, Index* column, Number* values) override {
+    return places_or_values(&SparseNlp::hessian_pattern, nlp_, row, column, entries, values,
+                            [&](std::span<double> out) {
+                              return nlp_.hessian(view(x, n), factor, view(lambda, m), out);
+                            });
   }
 
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
@@ -116,8 +114,6 @@ class Bridge final : public Ipopt::TNLP {
  private:
   const SparseNlp& nlp_;
   std::span<const double> start_;
-  SparsePattern jacobian_;
-  SparsePattern hessian_;
 };
 
 // Scaling is ours. Debian's MUMPS needs the last two: with its defaults it regularises the dense

@@ -3,6 +3,10 @@
 #include <exception>
 #include <mutex>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace flexspline::estimators {
 namespace {
 
@@ -21,12 +25,33 @@ void set_defaults(Ipopt::OptionsList& options) {
   options.SetIntegerValue("mumps_pivot_order", 6);
 }
 
+// While it lives, what is freed goes back to the system: MUMPS' factors are most of the memory of a
+// fit, and neither what reading the data left nor Ipopt's copies of the matrices should add to
+// them.
+class ThriftyHeap {
+ public:
+  ThriftyHeap() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+    mallopt(M_MMAP_THRESHOLD, 128 << 10);
+#endif
+  }
+  ~ThriftyHeap() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+#endif
+  }
+  ThriftyHeap(const ThriftyHeap&) = delete;
+  ThriftyHeap& operator=(const ThriftyHeap&) = delete;
+};
+
 }  // namespace
 
 Result<Ipopt::ApplicationReturnStatus> run_ipopt(
     const Ipopt::SmartPtr<Ipopt::TNLP>& problem,
     const std::function<void(Ipopt::OptionsList&)>& configure) {
   const std::lock_guard lock(mumps_mutex());
+  const ThriftyHeap thrifty;
   try {
     const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
     set_defaults(*application->Options());
