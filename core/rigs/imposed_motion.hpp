@@ -32,6 +32,7 @@ struct ImposedMotion {
     x.time = S(t);
     x.motor_angle = x.load_angle = x.torsion = S(motion.value(t));
     x.motor_speed = x.load_speed = x.torsion_rate = S(rate_of(motion, t));
+    x.motor_acceleration = x.load_acceleration = x.torsion_acceleration = S(bend_of(motion, t));
     const Instant<S> rigid = enter_transmission(at, x, y[own - 1], SpecimenTorque{});
     ydot[0] = S(x.transmitted_torque * x.motor_speed);
     if (model.torsion_is_state()) ydot[own - 1] = x.torsion_rate;

@@ -18,6 +18,12 @@ inline double rate_of(const Signal& signal, double t) {
   return (signal.value(t + kStep) - signal.value(t - kStep)) / (2.0 * kStep);
 }
 
+/// The second time derivative.
+inline double bend_of(const Signal& signal, double t) {
+  constexpr double kStep = 1e-4;
+  return (rate_of(signal, t + kStep) - rate_of(signal, t - kStep)) / (2.0 * kStep);
+}
+
 inline const Signal& input(const RigInputs& inputs, Quantity quantity) {
   return inputs.channels.at(quantity);
 }
@@ -55,11 +61,7 @@ S loop_rate(const DriveSpec& drive, const RigInputs& inputs, double t, const Ins
   const Signal& reference = input(inputs, Quantity::commanded_angle);
   const S error(reference.value(t) - x.motor_angle);
   const S error_rate(rate_of(reference, t) - x.motor_speed);
-  constexpr double kStep = 1e-4;
-  const double bend =
-      gains.derivative == 0.0
-          ? 0.0
-          : (rate_of(reference, t + kStep) - rate_of(reference, t - kStep)) / (2.0 * kStep);
+  const double bend = gains.derivative == 0.0 ? 0.0 : bend_of(reference, t);
   return S(S(gains.proportional * error_rate) + S(gains.integral * error) +
            S(gains.derivative * S(bend - x.motor_acceleration)));
 }

@@ -325,6 +325,46 @@ TEST(Rigs, RefuseWhatTheyCannotSimulate) {
               testing::HasSubstr("acceleration"));
 }
 
+/// A form of every rig in which all that is listed for it can be simulated, and what drives it.
+struct WholeForm {
+  Rig rig;
+  std::string_view form;
+  Quantity input;
+};
+
+constexpr WholeForm kWholeForms[] = {{Rig::locked, "inertial", Quantity::motor_torque},
+                                     {Rig::free, "motor_driven", Quantity::motor_torque},
+                                     {Rig::specimen, "displacement_driven", Quantity::torsion},
+                                     {Rig::servo, "compliant", Quantity::motor_torque}};
+
+// What the catalogue lists for a rig is simulated on it, and recorded.
+TEST(Rigs, TakeEveryEffectThatIsListedForThem) {
+  const EffectSpec spring{"series_compliance", {{"compliance", 4.8e-5}}};
+  for (const auto& [rig, form, given] : kWholeForms) {
+    const Signal signal = sine(given == Quantity::torsion ? 2e-3 : 0.4, 2.0);
+    for (const EffectRow& row : effects()) {
+      if (std::ranges::find(row.rigs, rig) == row.rigs.end()) continue;
+      DriveSpec drive = example_drive();
+      drive.torsion.effects = {{std::string(row.id), {}}};
+      for (const auto& one : row.parameters) {
+        drive.torsion.effects[0].parameters.emplace_back(std::string(one.name), one.nominal);
+      }
+      if (row.id == "load_dependent_kinematic_error") drive.torsion.effects.push_back(spring);
+      const auto system = make_rig(rig, drive, {{{given, signal}}, {}}, form);
+      ASSERT_TRUE(system) << row.id << ": " << system.error().message();
+      const auto times = instants(0.02, 8);
+      const auto p = (*system)->parameter_vector();
+      const auto y = simulated(**system, p, times, (*system)->rest(), 1e-7, 1e-9);
+      const auto record = record_of(rig_row(rig), **system, p, times, y);
+      ASSERT_TRUE(record) << row.id << ": " << record.error().message();
+      for (const auto& [quantity, values] : record->channels) {
+        EXPECT_TRUE(std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+            << row.id << " on " << name_of(rig);
+      }
+    }
+  }
+}
+
 TEST(Rigs, SayWhatTheyAre) {
   ASSERT_EQ(rigs().size(), 4u);
   for (const RigRow& row : rigs()) {

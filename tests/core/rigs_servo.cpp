@@ -136,25 +136,6 @@ std::vector<EffectSpec> kinematics() {
           {"lost_motion", {{"half_gap", 1e-4}, {"width", 9.0}}}};
 }
 
-// All that the catalogue lists for the servo is simulated on it, in one form or another.
-TEST(ServoRig, TakesEveryEffectThatIsListedForIt) {
-  const RigInputs inputs{{{Quantity::motor_torque, sine(0.4, 2.0)}}, {}};
-  for (const EffectRow& row : effects()) {
-    if (std::ranges::find(row.rigs, Rig::servo) == row.rigs.end()) continue;
-    DriveSpec drive = example_drive();
-    EffectSpec effect{std::string(row.id), {}};
-    for (const auto& one : row.parameters) {
-      effect.parameters.emplace_back(std::string(one.name), one.nominal);
-    }
-    drive.torsion.effects = {effect};
-    for (const std::string_view form : {"torque_driven", "compliant"}) {
-      if (form == "torque_driven" && row.site == Site::kinematics) continue;
-      const auto rig = make_rig(Rig::servo, drive, inputs, form);
-      EXPECT_TRUE(rig) << row.id << ", " << form << ": " << rig.error().message();
-    }
-  }
-}
-
 // With torsion it is the free rig, seen from its load.
 TEST(ServoRig, MovesAsTheFreeRigWhereItIsCompliant) {
   const RigInputs inputs{{{Quantity::motor_torque, sine(0.4, 2.0)}}, {}};

@@ -34,7 +34,8 @@ TEST(MovedSpecimen, IsRecordedAsItsSamplesAre) {
   DriveSpec drive = example_drive();
   drive.torsion.effects = {
       {"bouc_wen", {{"height", 4.5}, {"slip_length", 3e-4}, {"exponent", 1.4}}},
-      {"torque_sensor_gain", {{"gain", 0.02}}}};
+      {"torque_sensor_gain", {{"gain", 0.02}}},
+      {"inertia_torque", {{"inertia", 0.3}}}};
   drive.gear_ratio = 1.0;
   const Signal motion = sine(2e-3, 1.0);
   const auto rig = made_rig(Rig::specimen, drive, {{{Quantity::displacement, motion}}, {}},
