@@ -55,6 +55,8 @@ Band parse_band(const json& from) {
 
 void parse_estimate(const json& from, Case& into) {
   into.termination = text_in(from, "termination");
+  into.cost = number_in(from, "cost");
+  into.evaluations = number_in(from, "evaluations");
   into.seconds = number_in(from, "seconds");
   into.notes = texts_in(from, "notes");
   for (const json& parameter : member(from, "parameters")) {

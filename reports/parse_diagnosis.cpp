@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "json_fields.hpp"
+#include "numbers.hpp"
 #include "parse_artefacts.hpp"
 
 namespace flexspline::reports {
@@ -74,10 +76,11 @@ ShownMove parse_move(const json& from) {
 }
 
 ShownSeries parse_series(const json& from) {
-  return {
-      text_in(from, "recording"),   text_in(from, "equation"),  text_in(from, "role") == "train",
-      numbers_in(from, "time"),     numbers_in(from, "motion"), numbers_in(from, "rate"),
-      numbers_in(from, "measured"), numbers_in(from, "before"), numbers_in(from, "after")};
+  return {text_in(from, "recording"),       text_in(from, "equation"),
+          text_in(from, "role") == "train", numbers_in(from, "time"),
+          numbers_in(from, "motion"),       numbers_in(from, "rate"),
+          numbers_in(from, "measured"),     numbers_in(from, "before"),
+          numbers_in(from, "after"),        numbers_in(from, "motor_angle")};
 }
 
 std::optional<ShownExperiment> parse_experiment(const json& from) {
@@ -119,6 +122,31 @@ void parse_list(const json& artefact, const char* key, Parse parse, std::vector<
   for (const json& one : member(artefact, key)) into.push_back(parse(one));
 }
 
+/// Ids of effects in a sentence as words, longest first where one is part of another.
+void spell(const std::vector<std::string>& ids, std::string& text) {
+  for (const std::string& id : ids) {
+    for (std::size_t at = 0; (at = text.find(id, at)) != std::string::npos; at += id.size()) {
+      text.replace(at, id.size(), words(id));
+    }
+  }
+}
+
+void spell_effects(DiagnosisView& view) {
+  std::vector<std::string> ids;
+  for (const ShownCandidate& one : view.tried) ids.push_back(one.effect);
+  for (const ShownCause& one : view.causes) ids.push_back(one.effect);
+  for (const ShownConfusable& one : view.confusable) ids.push_back(one.effect);
+  if (view.next) ids.insert(ids.end(), view.next->separates.begin(), view.next->separates.end());
+  std::erase_if(ids, [](const std::string& id) { return id.find('_') == std::string::npos; });
+  std::sort(ids.begin(), ids.end(),
+            [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  spell(ids, view.says);
+  for (ShownMismatch& one : view.mismatch) spell(ids, one.says);
+  for (ShownConfusable& one : view.confusable) spell(ids, one.why);
+  for (ShownCandidate& one : view.tried) spell(ids, one.outcome);
+  if (view.next) spell(ids, view.next->says);
+}
+
 }  // namespace
 
 bool DiagnosisView::has_equations() const {
@@ -148,6 +176,10 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   parse_list(artefact, "series", parse_series, view.series);
   view.has_model = !member(artefact, "model").empty();
   view.notes = texts_in(artefact, "notes");
+  for (const auto& [name, version] : member(artefact, "versions").items()) {
+    if (version.is_string()) view.versions[name] = version.get<std::string>();
+  }
+  spell_effects(view);
   return view;
 }
 

@@ -40,6 +40,7 @@ Input parse_input(const json& artefact) {
   if (input.title.empty()) input.title = input.id;
   input.kind = text_in(artefact, "kind");
   input.says = text_in(artefact, "says");
+  input.truth_id = text_in(artefact, "truth");
   input.source = text_in(artefact, "source");
   input.license = text_in(artefact, "license");
   input.units = parse_units(member(artefact, "units"));

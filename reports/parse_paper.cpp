@@ -32,9 +32,11 @@ PaperFigure parse_figure(const json& from) {
   figure.x_label = text_in(from, "x_label");
   figure.y_label = text_in(from, "y_label");
   figure.says = text_in(from, "says");
+  figure.wrong = text_in(from, "wrong");
   for (const json& series : member(from, "series")) {
-    figure.series.push_back({text_in(series, "name"), text_in(series, "style") == "points",
-                             numbers_in(series, "x"), numbers_in(series, "y")});
+    figure.series.push_back({text_in(series, "name"), text_in(series, "side"),
+                             text_in(series, "style") == "points", numbers_in(series, "x"),
+                             numbers_in(series, "y")});
   }
   return figure;
 }
@@ -50,7 +52,12 @@ Paper parse_paper(const json& artefact) {
                              number_in(row, "std")});
   }
   for (const json& row : member(artefact, "table_2")) {
-    paper.table_2.push_back({text_in(row, "name"), words_in(row, "value"), text_in(row, "unit")});
+    paper.table_2.push_back({text_in(row, "name"), words_in(row, "value"), words_in(row, "ours"),
+                             text_in(row, "unit"), text_in(row, "says")});
+  }
+  for (const json& slip : member(artefact, "slips")) {
+    paper.slips.push_back(
+        {text_in(slip, "where"), text_in(slip, "printed"), text_in(slip, "meant")});
   }
   for (const json& figure : member(artefact, "figures")) {
     paper.figures.push_back(parse_figure(figure));

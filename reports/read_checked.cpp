@@ -52,4 +52,8 @@ Result<TrialView> read_trial(const std::filesystem::path& folder) {
   return read_view(folder / "trial.json", "flexspline-trial-result/1", parse_trial);
 }
 
+Result<VerificationView> read_verification(const std::filesystem::path& folder) {
+  return read_view(folder / "verification.json", "flexspline-verification/1", parse_verification);
+}
+
 }  // namespace flexspline::reports

@@ -7,6 +7,7 @@
 #include "flexspline/reports/report.hpp"
 #include "flexspline/reports/section.hpp"
 #include "flexspline/reports/trial_view.hpp"
+#include "flexspline/reports/verification_view.hpp"
 #include "lock_file.hpp"
 #include "page.hpp"
 #include "static_figures.hpp"
@@ -68,6 +69,14 @@ Result<Composed> of_trial(const fs::path& folder) {
   return Composed{compose(title, trial_sections(), *view), kPage};
 }
 
+Result<Composed> of_verification(const fs::path& folder) {
+  const auto view = read_verification(folder);
+  if (!view) return tl::unexpected(view.error());
+  return Composed{
+      compose("Does it come out again? " + view->folder, verification_sections(), *view),
+      "index.html"};
+}
+
 Result<Composed> of_study(const fs::path& folder) {
   auto artefacts = read_artefacts(folder);
   if (!artefacts) return tl::unexpected(artefacts.error());
@@ -79,6 +88,7 @@ Result<Composed> of_study(const fs::path& folder) {
 Result<Composed> of_folder(const fs::path& folder) {
   if (fs::exists(folder / "diagnosis.json")) return of_diagnosis(folder);
   if (fs::exists(folder / "trial.json")) return of_trial(folder);
+  if (fs::exists(folder / "verification.json")) return of_verification(folder);
   return of_study(folder);
 }
 

@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::string>& ids) {
 
 std::string experiment_sentence(const DiagnosisView& view) {
   const ShownExperiment& next = *view.next;
-  std::string text = next.excitation;
+  std::string text = "In numbers: " + next.excitation;
   if (std::isfinite(next.amplitude)) {
     text += ", amplitude " + compact(next.amplitude, 3) + " " + view.units.motion;
   }

@@ -7,8 +7,8 @@ namespace flexspline::reports {
 namespace {
 
 constexpr const char* kCommands =
-    "# compute it again\n"
-    "flexspline diagnose DATASET --out AGAIN\n"
+    "# compute it again and compare\n"
+    "flexspline verify DIR --dataset DATASET\n"
     "# draw this page again from diagnosis.json alone\n"
     "flexspline report DIR";
 
@@ -30,6 +30,7 @@ std::optional<Section> draw(const DiagnosisView& view) {
   if (std::isfinite(view.seconds)) {
     table.rows.push_back({"computed in", digits(view.seconds, 2) + " s"});
   }
+  for (const auto& [name, version] : view.versions) table.rows.push_back({name, version});
   section.add(std::move(table));
   return section;
 }

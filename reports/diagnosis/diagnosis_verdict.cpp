@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "flexspline/reports/diagnosis_view.hpp"
+#include "figures/diagnosis_figures.hpp"
 #include "numbers.hpp"
 
 namespace flexspline::reports {
@@ -67,6 +67,9 @@ std::optional<Section> draw(const DiagnosisView& view) {
   section.add(Verdict{view.says.empty() ? meaning : sentence(view.says)});
   if (!view.says.empty() && !view.adequate()) section.add(Paragraph{meaning});
   section.add(Paragraph{baseline_sentence(view)});
+  if (Figure figure = headline_figure(view); !figure.frames.empty()) {
+    section.add(std::move(figure));
+  }
   if (!view.causes.empty()) section.add(causes_table(view));
   return section;
 }

@@ -54,6 +54,9 @@ std::optional<Section> draw(const DiagnosisView& view) {
     section.add(std::move(figure));
   }
   if (!view.mismatch.empty()) section.add(mismatch_table(view));
+  if (Figure figure = ordered_residuals_figure(view); !figure.frames.empty()) {
+    section.fold("By time, torsion, velocity, load and order", std::move(figure));
+  }
   return section;
 }
 

@@ -21,4 +21,20 @@ Figure candidates_figure(const DiagnosisView& view);
 /// Misfit of every recording before and after, beside the noise floor.
 Figure before_after_figure(const DiagnosisView& view);
 
+/// The same by coordinate: means over time, motion, rate, effort, and orders of the motor's turn.
+Figure ordered_residuals_figure(const DiagnosisView& view);
+
+/// The loop of a recording kept back, beside the model without and with what was left out.
+Figure headline_figure(const DiagnosisView& view);
+
+/// Series as they stand, the one with the largest mismatch first.
+std::vector<const ShownSeries*> worst_first(const DiagnosisView& view);
+
+/// Whether there is a model with what was left out that differs from the one without.
+bool has_after(const ShownSeries& series);
+
+/// What a picker over the series is called, and what it says for one of them.
+std::vector<std::string> pickers_of(const DiagnosisView& view);
+std::vector<std::string> choice_of(const DiagnosisView& view, const ShownSeries& series);
+
 }  // namespace flexspline::reports

@@ -50,11 +50,6 @@ std::vector<double> inside(const ShownSeries& series, const std::vector<Span>& s
   return values;
 }
 
-/// Without anything left out, both models are the same line.
-bool has_after(const ShownSeries& series) {
-  return !series.after.empty() && series.after != series.before;
-}
-
 Panel panel_of(const ShownSeries& series, const std::vector<double>& x, const std::string& title,
                const std::string& x_label, const std::string& effort) {
   Panel panel;
@@ -91,7 +86,31 @@ std::vector<Panel> panels_of(const DiagnosisView& view, const ShownSeries& serie
   return panels;
 }
 
-/// As they stand, the one with the largest mismatch first.
+std::size_t points_of(const DiagnosisView& view) {
+  const std::size_t lines = std::max<std::size_t>(1, view.series.size());
+  return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 80, 1200);
+}
+
+std::string caption_of(const DiagnosisView& view) {
+  std::string text = "The wide line is measured, the solid one the baseline. ";
+  text += view.mismatch.empty()
+              ? "It stays within the noise; pick another recording to see that it does so "
+                "everywhere."
+              : "Yellow marks where they part most, on the loop and along time.";
+  if (!view.causes.empty()) {
+    text +=
+        " Look whether the dashed line, with what was left out, stays on the measured one "
+        "there.";
+  }
+  return text + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
+}
+
+}  // namespace
+
+bool has_after(const ShownSeries& series) {
+  return !series.after.empty() && series.after != series.before;
+}
+
 std::vector<const ShownSeries*> worst_first(const DiagnosisView& view) {
   std::vector<const ShownSeries*> ordered;
   for (const ShownSeries& one : view.series) ordered.push_back(&one);
@@ -114,27 +133,6 @@ std::vector<std::string> pickers_of(const DiagnosisView& view) {
   if (view.has_equations()) return {"recording", "equation"};
   return {"recording"};
 }
-
-std::size_t points_of(const DiagnosisView& view) {
-  const std::size_t lines = std::max<std::size_t>(1, view.series.size());
-  return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 80, 1200);
-}
-
-std::string caption_of(const DiagnosisView& view) {
-  std::string text = "The wide line is measured, the solid one the baseline. ";
-  text += view.mismatch.empty()
-              ? "It stays within the noise; pick another recording to see that it does so "
-                "everywhere."
-              : "Yellow marks where they part most, on the loop and along time.";
-  if (!view.causes.empty()) {
-    text +=
-        " Look whether the dashed line, with what was left out, stays on the measured one "
-        "there.";
-  }
-  return text + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
-}
-
-}  // namespace
 
 Figure mismatch_figure(const DiagnosisView& view) {
   Figure figure;

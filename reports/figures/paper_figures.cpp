@@ -72,6 +72,86 @@ Panel beyond_panel(const std::vector<double>& c, double range, const std::string
   return panel;
 }
 
+/// The full trajectory's estimate on recordings of Table I.
+const Case* full_on_table_one(const StudyView& view) {
+  const EstimatorView* full = view.full_trajectory();
+  if (full == nullptr) return nullptr;
+  for (const Input& input : view.artefacts().inputs) {
+    if (input.truth_id == "table_i") return view.find(input, *full);
+  }
+  return nullptr;
+}
+
+/// As far as the panel's own first series reaches.
+void add_within(Panel& panel, const std::string& name, const std::vector<double>& x,
+                const std::vector<double>& y) {
+  const auto& shown = panel.series.front().x;
+  const auto [first, last] = std::minmax_element(shown.begin(), shown.end());
+  Series series{name, "line", {"plain", 3}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
+    if (x[i] < 1.001 * *first - 1e-9 || x[i] > 1.001 * *last) continue;
+    series.x.push_back(x[i]);
+    series.y.push_back(y[i]);
+  }
+  if (!series.x.empty()) panel.series.push_back(std::move(series));
+}
+
+/// To what the paper calls estimated, what its own recordings give along whole trajectories.
+void add_full_trajectory(const StudyView& view, const PaperFigure& from, Panel& panel) {
+  const Case* full = full_on_table_one(view);
+  if (full == nullptr || panel.series.empty()) return;
+  if (from.id == "figure_10" || from.id == "figure_11") {
+    const Band* band = full->band(from.id == "figure_10" ? "f" : "g_inverse");
+    if (band != nullptr) add_within(panel, "full trajectory", band->argument, band->value);
+  }
+  if (from.id == "figure_12" && !full->train.empty()) {
+    const CaseRecording* loop = full->recording(full->train.front());
+    if (loop != nullptr) add_within(panel, "full trajectory", loop->motion, loop->simulated);
+  }
+}
+
+Role role_in(const std::string& side, const PaperSeries& series, int rank) {
+  if (side == "paper") return {"published", 0};
+  if (series.points || series.name == "measured") return {"measured", 0};
+  return {"plain", rank};
+}
+
+/// Two sides are compared on the same axes.
+void share_axes(std::vector<Panel>& panels) {
+  if (panels.size() < 2) return;
+  for (const bool along_x : {true, false}) {
+    double lower = HUGE_VAL, upper = -HUGE_VAL;
+    for (const Panel& panel : panels) {
+      for (const Series& series : panel.series) {
+        for (const double value : along_x ? series.x : series.y) {
+          lower = std::min(lower, value);
+          upper = std::max(upper, value);
+        }
+      }
+    }
+    for (Panel& panel : panels) (along_x ? panel.x : panel.y).range = widened(lower, upper, 0.04);
+  }
+}
+
+Panel side_panel(const PaperFigure& from, const std::string& side) {
+  Panel panel;
+  panel.title = side == "paper" ? "as printed" : side;
+  panel.x.label = typeset(from.x_label);
+  panel.y.label = typeset(from.y_label);
+  int rank = 0;
+  for (const PaperSeries& series : from.series) {
+    if (series.side != side) continue;
+    panel.series.push_back({series.name,
+                            series.points ? "points" : "line",
+                            role_in(side, series, rank++),
+                            thinned(series.x, 400),
+                            thinned(series.y, 400),
+                            {},
+                            {}});
+  }
+  return panel;
+}
+
 }  // namespace
 
 Figure table_one_figure(const Paper& paper) {
@@ -93,27 +173,22 @@ Figure table_one_figure(const Paper& paper) {
   return figure;
 }
 
-Figure paper_figure(const PaperFigure& from) {
+Figure paper_figure(const StudyView& view, const PaperFigure& from) {
   Figure figure;
   figure.id = slug(from.id);
   const std::string number = from.id.starts_with("figure_") ? from.id.substr(7) : std::string{};
   figure.title = number.empty() ? from.title : "Figure " + number + ": " + from.title;
   figure.caption = typeset(from.says);
+  if (!from.wrong.empty()) figure.caption += " What is wrong: " + typeset(from.wrong);
   figure.alt = from.title + ": " + from.y_label + " over " + from.x_label + ".";
-  Panel panel;
-  panel.x.label = typeset(from.x_label);
-  panel.y.label = typeset(from.y_label);
-  int rank = 0;
-  for (const PaperSeries& series : from.series) {
-    panel.series.push_back({series.name,
-                            series.points ? "points" : "line",
-                            {"plain", rank++},
-                            thinned(series.x, 400),
-                            thinned(series.y, 400),
-                            {},
-                            {}});
+  Frame frame;
+  for (const char* side : {"", "paper", "ours"}) {
+    Panel panel = side_panel(from, side);
+    if (side == std::string_view("ours")) add_full_trajectory(view, from, panel);
+    if (!panel.series.empty()) frame.panels.push_back(std::move(panel));
   }
-  figure.frames.push_back({{}, {std::move(panel)}});
+  if (from.id != "figure_7") share_axes(frame.panels);  // one cycle there, five here
+  figure.frames.push_back(std::move(frame));
   return figure;
 }
 

@@ -31,8 +31,19 @@ Figure half_height_figure(const StudyView& view);
 /// Table I's polynomials up to 1.5 times the range on which they were fitted.
 Figure table_one_figure(const Paper& paper);
 
-/// A figure of the paper.
-Figure paper_figure(const PaperFigure& figure);
+/// A figure of the paper: as printed, and ours beside it, with the full trajectory where there is
+/// one for Table I.
+Figure paper_figure(const StudyView& view, const PaperFigure& figure);
+
+/// Errors of each estimator over the whole study: median and worst, trained and held out.
+Figure estimators_figure(const StudyView& view);
+
+/// What each estimator leaves on each recording, in order of time, motion, rate, effort and
+/// harmonics of the motion.
+Figure ordered_residuals_figure(const StudyView& view);
+
+/// How many evaluations each fit took.
+Figure convergence_figure(const StudyView& view);
 
 /// Names of functions for people: g_inverse is g⁻¹.
 std::string function_label(const std::string& function);

@@ -65,6 +65,26 @@ Table parameter_table(const StudyView& view, const Input& input) {
   return table;
 }
 
+Table convergence_table(const StudyView& view) {
+  Table table{"convergence",
+              "How each fit ended: cost is half the sum of squared weighted residuals.",
+              {{"input", "", 3},
+               {"estimator", "", 3},
+               {"ended", "", 3},
+               {"evaluations", "", 0},
+               {"cost", "", 4}},
+              {}};
+  for (const Input& input : view.artefacts().inputs) {
+    for (const EstimatorView& estimator : view.estimators()) {
+      const Case* item = view.find(input, estimator);
+      if (item == nullptr) continue;
+      table.rows.push_back({input.title, estimator.id, item->failed ? "failed" : item->termination,
+                            item->evaluations, item->cost});
+    }
+  }
+  return table;
+}
+
 /// Each reason once, with the estimators it holds for.
 void add_reasons(const StudyView& view, Section& section) {
   std::set<std::string> told;
@@ -108,6 +128,10 @@ std::optional<Section> draw(const StudyView& view) {
     Table table = parameter_table(view, input);
     if (!table.rows.empty()) section.fold("Parameters with 95 % intervals", std::move(table));
   }
+  if (Figure work = convergence_figure(view); !work.frames.empty()) {
+    section.fold("Convergence: how each fit ended", std::move(work));
+  }
+  section.fold("Convergence: how each fit ended", convergence_table(view));
   return section;
 }
 

@@ -117,6 +117,9 @@ std::optional<Section> draw(const StudyView& view) {
   if (!view.artefacts().cases.empty()) {
     const Figure loops = loops_figure(view);
     if (!loops.frames.empty()) section.add(residual_figure(loops));
+    if (Figure ordered = ordered_residuals_figure(view); !ordered.frames.empty()) {
+      section.fold("By time, torsion, velocity, load and order", std::move(ordered));
+    }
     for (const Input& input : inputs) {
       if (is_rate_independent(input)) section.add(by_recording(view, input));
     }

@@ -41,7 +41,9 @@ Table facts_table(const Paper& paper) {
 Table table_one(const Paper& paper) {
   Table table{"table-1",
               "Table I: coefficients as published, and as the paper's method recovers them from "
-              "the virtual bench.",
+              "the virtual bench. Wrong in it: nothing that could be recomputed, but it claims "
+              "more than one loop can give. Single coefficients are worth no more digits than "
+              "their standard deviations leave; only their sum over the range is determined.",
               {{"coefficient", "", 3},
                {"published", "", 5},
                {"recovered", "", 5},
@@ -58,13 +60,36 @@ Table table_one(const Paper& paper) {
 
 Table table_two(const Paper& paper) {
   Table table{"table-2",
-              "Table II: the bench.",
-              {{"quantity", "", 3}, {"value", "", 5}, {"unit", "", 3}},
+              "Table II: the bench as printed, and what the virtual bench takes from it.",
+              {{"quantity", "", 3},
+               {"printed", "", 5},
+               {"ours", "", 5},
+               {"unit", "", 3},
+               {"remark", "", 3}},
               {}};
-  for (const TableTwoRow& row : paper.table_2)
-    table.rows.push_back({row.name, row.value, row.unit});
+  for (const TableTwoRow& row : paper.table_2) {
+    table.rows.push_back({row.name, row.value, row.ours, row.unit, row.says});
+  }
   return table;
 }
+
+Table slips_table(const Paper& paper) {
+  Table table{"slips",
+              "Slips of the text, as far as a reader can tell what was meant.",
+              {{"where", "", 3}, {"printed", "", 3}, {"meant, or true", "", 3}},
+              {}};
+  for (const Slip& slip : paper.slips) {
+    table.rows.push_back({slip.where, slip.printed, slip.meant});
+  }
+  return table;
+}
+
+constexpr const char* kSides =
+    "Figures 4 to 12, side by side. Left: what the printed numbers give, Table I along the sine "
+    "that "
+    "was asked for; the measured curves of the print are not available as numbers. Right: the same "
+    "experiment on the virtual bench, with noise and encoder, and, where it is asked what was "
+    "estimated, the full trajectory beside the paper's fit.";
 
 std::string verdict_of(const Paper& paper) {
   std::size_t known = 0, agree = 0;
@@ -86,8 +111,10 @@ std::optional<Section> draw(const StudyView& view) {
   if (!beyond.frames.empty()) section.add(std::move(beyond));
   if (!paper.facts.empty()) section.add(facts_table(paper));
   if (!paper.table_1.empty()) section.add(table_one(paper));
-  for (const PaperFigure& figure : paper.figures) section.add(paper_figure(figure));
-  if (!paper.table_2.empty()) section.fold("Table II: the bench", table_two(paper));
+  if (!paper.table_2.empty()) section.add(table_two(paper));
+  if (!paper.slips.empty()) section.add(slips_table(paper));
+  if (!paper.figures.empty()) section.add(Paragraph{kSides});
+  for (const PaperFigure& figure : paper.figures) section.add(paper_figure(view, figure));
   return section;
 }
 

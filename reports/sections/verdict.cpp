@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures/study_figures.hpp"
 #include "flexspline/reports/section.hpp"
 #include "numbers.hpp"
 
@@ -137,6 +138,9 @@ std::optional<Section> draw(const StudyView& view) {
   }
   for (const EstimatorView* estimator : view.principal()) {
     section.add(Paragraph{sentence_of(view, *estimator)});
+  }
+  if (Figure figure = estimators_figure(view); !figure.frames.empty()) {
+    section.add(std::move(figure));
   }
   section.add(estimators_table(view));
   add_failures(view, section);

@@ -275,6 +275,7 @@ std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection&
       series.measured.push_back(measured[r]);
       series.before.push_back(s.baseline.fit.prediction[e][r]);
       series.after.push_back(s.final.fit.prediction[e][r]);
+      if (frame.rig != Rig::locked) series.motor_angle.push_back(frame.motor_angle[r]);
     }
     list.push_back(std::move(series));
   }

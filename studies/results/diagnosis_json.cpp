@@ -124,15 +124,17 @@ Json experiment_json(const NextExperiment& next, const Diagnosis& diagnosis) {
 Json series_json(const DiagnosedSeries& series, const Diagnosis& diagnosis) {
   const std::string& motion = diagnosis.display.motion;
   const std::string& effort = diagnosis.display.effort;
-  return {{"recording", series.recording},
-          {"role", series.split == Split::holdout ? "holdout" : "train"},
-          {"equation", series.equation},
-          {"time", shown(series.time, "s")},
-          {"motion", shown(series.motion, motion)},
-          {"rate", shown(series.rate, motion)},
-          {"measured", shown(series.measured, effort)},
-          {"before", shown(series.before, effort)},
-          {"after", shown(series.after, effort)}};
+  Json json = {{"recording", series.recording},
+               {"role", series.split == Split::holdout ? "holdout" : "train"},
+               {"equation", series.equation},
+               {"time", shown(series.time, "s")},
+               {"motion", shown(series.motion, motion)},
+               {"rate", shown(series.rate, motion)},
+               {"measured", shown(series.measured, effort)},
+               {"before", shown(series.before, effort)},
+               {"after", shown(series.after, effort)}};
+  if (!series.motor_angle.empty()) json["motor_angle"] = shown(series.motor_angle, "deg");
+  return json;
 }
 
 template <class Row, class Write>

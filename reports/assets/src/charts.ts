@@ -1,13 +1,12 @@
 // The only file that names the plotting library.
 
-import { connect, init, use } from "echarts/core";
+import { init, use } from "echarts/core";
 import type { EChartsType } from "echarts/core";
 import { CustomChart, HeatmapChart, LineChart, ScatterChart } from "echarts/charts";
 import {
   DataZoomInsideComponent,
   GridComponent,
   LegendComponent,
-  LegendScrollComponent,
   MarkAreaComponent,
   MarkLineComponent,
   TooltipComponent,
@@ -18,10 +17,11 @@ import { SVGRenderer } from "echarts/renderers";
 import type { Figure, Panel } from "./document";
 import { heatmapOption, wideExtent } from "./heatmap";
 import { linesOption } from "./lines";
+import { selectionOf } from "./selection";
 
 use([
   CustomChart, HeatmapChart, LineChart, ScatterChart, DataZoomInsideComponent, GridComponent, LegendComponent,
-  LegendScrollComponent, MarkAreaComponent, MarkLineComponent, TooltipComponent, VisualMapContinuousComponent, SVGRenderer,
+  MarkAreaComponent, MarkLineComponent, TooltipComponent, VisualMapContinuousComponent, SVGRenderer,
 ]);
 
 export type Chart = EChartsType;
@@ -32,7 +32,6 @@ const optionOf = (panel: Panel, figure: Figure, width: number) =>
 export function drawChart(element: HTMLElement, panel: Panel, figure: Figure): Chart {
   const chart = init(element, undefined, { renderer: "svg" });
   chart.setOption(optionOf(panel, figure, element.clientWidth));
-  chart.group = figure.id;
   return chart;
 }
 
@@ -53,7 +52,9 @@ export function extentOf(panel: Panel, figure: Figure): { width?: number; height
   return rows > 0 ? { height: 110 + rows * (figure.kind === "heatmap" ? 38 : 26) } : {};
 }
 
-/** Hiding a series in one panel hides it in the others. */
-export function linkCharts(id: string): void {
-  connect(id);
+/** Hides what is hidden on the page, and shows the rest. */
+export function applySelection(chart: Chart, panel: Panel): void {
+  for (const [name, shown] of Object.entries(selectionOf(panel))) {
+    chart.dispatchAction({ type: shown ? "legendSelect" : "legendUnSelect", name });
+  }
 }

@@ -1,8 +1,6 @@
 // What is shown, as a file: the picture as SVG, its numbers as CSV.
 
 import type { Panel } from "./document";
-import { sheetOf } from "./sheet";
-import type { Picture } from "./sheet";
 
 function save(name: string, type: string, text: string): void {
   const link = document.createElement("a");
@@ -41,10 +39,10 @@ function button(text: string, act: () => void): HTMLButtonElement {
   return element;
 }
 
-export function addDownloads(id: string, cellUnit: string, controls: HTMLElement, panels: () => Panel[], pictures: () => Picture[]): void {
+export function addDownloads(id: string, cellUnit: string, controls: HTMLElement, panels: () => Panel[], sheet: () => string): void {
   const group = document.createElement("span");
   group.className = "downloads";
-  const saveSvg = () => save(`${id}.svg`, "image/svg+xml", sheetOf(pictures()));
+  const saveSvg = () => save(`${id}.svg`, "image/svg+xml", sheet());
   group.append(button("SVG", saveSvg), button("CSV", () => save(`${id}.csv`, "text/csv", csvOf(panels(), cellUnit))));
   controls.append(group);
 }

@@ -3,6 +3,7 @@
 import type { Axis, Panel, Series } from "./document";
 import { escapeHtml, shown, tick } from "./numbers";
 import { onPaper, screenWidth } from "./screen";
+import { namesOf, selectionOf } from "./selection";
 import { colourOf, dashOf, isReference, kFont, kTooltipCss, symbolOf, theme, widthOf } from "./theme";
 
 type Option = Record<string, any>;
@@ -40,8 +41,8 @@ function pointSeries(series: Series, dodged: boolean): Option {
     symbol: symbolOf(series),
     symbolSize: series.x.length > 60 ? 4 : 11,
     symbolOffset: dodged ? [0, (series.rank % 4) * 6 - 9] : [0, 0],
-    itemStyle: { color: colourOf(series), opacity: 0.9 },
-    z: 3,
+    itemStyle: { color: colourOf(series), opacity: isReference(series) ? 0.35 : 0.9 },
+    z: isReference(series) ? 2 : 3,
   };
 }
 
@@ -167,13 +168,13 @@ function tooltipText(panel: Panel, items: any[]): string {
 
 export const kLegendRow = 30;
 
-/** On paper every name is written, on as many rows as that takes; on a screen the legend scrolls. */
+/** On paper every name is written, on as many rows as that takes; on a page it stands beside. */
 export function legendRows(panel: Panel, width: number): number {
-  if (!onPaper() || panel.cells) return 1;
+  if (!onPaper() || panel.cells) return 0;
   let rows = 1;
   let used = 0;
-  for (const one of panel.series.filter((series) => series.style !== "band")) {
-    const needed = (panel.y.categories ? 46 : 64) + 7 * one.name.length;
+  for (const name of namesOf(panel)) {
+    const needed = (panel.y.categories ? 46 : 64) + 7 * name.length;
     if (used > 0 && used + needed > width) [rows, used] = [rows + 1, 0];
     used += needed;
   }
@@ -184,16 +185,14 @@ function legendOption(panel: Panel): Option {
   const colours = theme();
   const shownOnes = panel.series.filter((one) => one.style !== "band");
   return {
+    show: onPaper(),
     bottom: 0,
-    type: onPaper() ? "plain" : "scroll",
+    selected: selectionOf(panel),
     data: shownOnes.map((one) => ({ name: one.name, itemStyle: hasSymbols(one) ? {} : { opacity: 0 } })),
     textStyle: { color: colours.text },
-    itemGap: onPaper() ? 18 : 16,
+    itemGap: 18,
     itemWidth: panel.y.categories ? 12 : 30,
     itemHeight: 10,
-    pageIconColor: colours.text,
-    pageIconInactiveColor: colours.grid,
-    pageTextStyle: { color: colours.text },
     inactiveColor: colours.muted,
   };
 }
@@ -210,7 +209,7 @@ export function linesOption(panel: Panel, width: number): Option {
   return {
     animation: false,
     textStyle: { color: colours.text, fontFamily: kFont },
-    grid: { left: panel.y.categories ? categoryWidth(panel.y.categories) + 12 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 74 + kLegendRow * (legendRows(panel, width) - 1), outerBoundsMode: "none" },
+    grid: { left: panel.y.categories ? categoryWidth(panel.y.categories) + 30 : 74, right: 20, top: panel.marks?.length ? 22 : 10, bottom: 46 + kLegendRow * legendRows(panel, width), outerBoundsMode: "none" },
     legend: legendOption(panel),
     tooltip: {
       trigger: overCategories ? "item" : "axis",

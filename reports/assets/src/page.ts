@@ -2,23 +2,26 @@
 // scheme changes.
 
 import type { Chart } from "./charts";
-import { drawChart, extentOf, linkCharts } from "./charts";
+import { applySelection, drawChart, extentOf } from "./charts";
+import { addCopyButtons } from "./copy";
 import type { Figure, Frame, Panel } from "./document";
 import { readFigures } from "./document";
 import { addDownloads } from "./download";
 import { scaleStrip } from "./heatmap";
+import { listenToKeys } from "./keyboard";
+import { fillLegend, refreshLegend } from "./legend";
 import { addPickers } from "./picker";
-import { onThemeChange, setPrinting } from "./screen";
-import { notesOf } from "./sheet";
-import type { Picture } from "./sheet";
+import { asOnPaper, onThemeChange, setPrinting } from "./screen";
+import { notesOf, sheetFor } from "./sheet";
 
 class DrawnFigure {
   private charts: Chart[] = [];
   private frame: Frame;
   private readonly panels: HTMLElement;
+  private readonly legend = document.createElement("div");
   private seen = false;
 
-  constructor(private readonly figure: Figure, element: HTMLElement) {
+  constructor(private readonly figure: Figure, element: HTMLElement, private readonly selectionChanged: () => void) {
     this.frame = figure.frames[0];
     this.panels = element.querySelector<HTMLElement>(".panels")!;
     const controls = element.querySelector<HTMLElement>(".controls")!;
@@ -26,8 +29,10 @@ class DrawnFigure {
       this.frame = frame;
       this.draw();
     });
-    addDownloads(figure.id, figure.cell_unit ?? "", controls, () => this.frame.panels, () => this.pictures());
+    addDownloads(figure.id, figure.cell_unit ?? "", controls, () => this.frame.panels, () => asOnPaper(() => sheetFor(figure, this.frame.panels)));
     if (figure.kind === "heatmap" && figure.scale) this.panels.before(scaleStrip(figure.scale, figure.cell_unit ?? ""));
+    this.legend.className = "legend";
+    if (figure.kind !== "heatmap") this.panels.after(this.legend);
     this.layOut();
     new ResizeObserver(() => this.fit()).observe(this.panels);
   }
@@ -44,6 +49,7 @@ class DrawnFigure {
     const places = this.frame.panels.map((panel) => this.placeFor(panel));
     this.panels.dataset.count = String(places.length);
     this.panels.replaceChildren(...places.map((place) => place.parentElement!));
+    fillLegend(this.legend, this.frame.panels, this.selectionChanged);
     return places;
   }
 
@@ -68,22 +74,23 @@ class DrawnFigure {
     return place;
   }
 
-  private pictures(): Picture[] {
-    const serializer = new XMLSerializer();
-    return this.charts.map((chart, i) => ({
-      title: this.frame.panels[i].title,
-      notes: notesOf(this.frame.panels[i]),
-      width: chart.getWidth(),
-      height: chart.getHeight(),
-      svg: serializer.serializeToString(chart.getDom().querySelector("svg")!),
-    }));
-  }
-
   draw(): void {
     this.seen = true;
     const places = this.layOut();
     this.charts = this.frame.panels.map((panel, i) => drawChart(places[i], panel, this.figure));
-    if (this.charts.length > 1 && this.figure.kind === "lines") linkCharts(this.figure.id);
+    if (this.figure.kind === "lines") this.charts.forEach((chart, i) => this.addKeys(places[i], chart, this.frame.panels[i]));
+  }
+
+  private addKeys(place: HTMLElement, chart: Chart, panel: Panel): void {
+    place.tabIndex = 0;
+    place.setAttribute("role", "group");
+    place.setAttribute("aria-label", `${panel.title || this.figure.title}: plus and minus zoom, arrows move, zero shows all`);
+    listenToKeys(place, chart);
+  }
+
+  applySelection(): void {
+    this.charts.forEach((chart, i) => applySelection(chart, this.frame.panels[i]));
+    refreshLegend(this.legend);
   }
 
   redraw(): void {
@@ -94,6 +101,7 @@ class DrawnFigure {
 export function startPage(): void {
   const figures = readFigures(document.getElementById("figures")?.textContent ?? "{}");
   const drawn: DrawnFigure[] = [];
+  const selectionChanged = () => drawn.forEach((one) => one.applySelection());
   const waiting = new Map<Element, DrawnFigure>();
   const observer = new IntersectionObserver(
     (entries) =>
@@ -107,11 +115,12 @@ export function startPage(): void {
   for (const element of document.querySelectorAll<HTMLElement>("figure[data-figure]")) {
     const figure = figures[element.dataset.figure ?? ""];
     if (!figure?.frames.length) continue;
-    const one = new DrawnFigure(figure, element);
+    const one = new DrawnFigure(figure, element, selectionChanged);
     drawn.push(one);
     waiting.set(element, one);
     observer.observe(element);
   }
+  addCopyButtons();
   onThemeChange(() => drawn.forEach((one) => one.redraw()));
   const print = (on: boolean) => {
     setPrinting(on);

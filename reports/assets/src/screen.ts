@@ -21,6 +21,17 @@ export function onPaper(): boolean {
   return printing;
 }
 
+/** What a function gives as on paper. */
+export function asOnPaper<T>(draw: () => T): T {
+  const before = printing;
+  printing = true;
+  try {
+    return draw();
+  } finally {
+    printing = before;
+  }
+}
+
 export function isDark(): boolean {
   return Boolean(dark?.matches) && !printing;
 }

@@ -7,7 +7,7 @@ import { kLegendRow, legendRows } from "./lines";
 import { escapeHtml } from "./numbers";
 import { kFont } from "./theme";
 
-export interface Picture {
+interface Picture {
   title: string;
   notes: string[];
   width: number;
@@ -37,7 +37,7 @@ function placed(picture: Picture, x: number, y: number): string {
 const heightOf = (picture: Picture) => kTitle + picture.height + kNote * picture.notes.length;
 
 /** Two beside each other where there are several. */
-export function sheetOf(pictures: Picture[]): string {
+function sheetOf(pictures: Picture[]): string {
   const columns = pictures.length > 1 ? 2 : 1;
   const column = Math.max(...pictures.map((one) => one.width));
   let y = kGap / 2;
@@ -51,21 +51,23 @@ export function sheetOf(pictures: Picture[]): string {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${y}" viewBox="0 0 ${width} ${y}"><rect width="100%" height="100%" fill="#ffffff"/>${body}</svg>\n`;
 }
 
-function picturesOf(figure: Figure, panels: Panel[]): Picture[] {
+/** A figure's panels, for one choice of its pickers, on one sheet. */
+export function sheetFor(figure: Figure, panels: Panel[]): string {
   const several = panels.length > 1;
-  return panels.map((panel) => {
+  const pictures = panels.map((panel) => {
     const wanted = extentOf(panel, figure);
     const width = Math.max(wanted.width ?? 0, several ? 560 : 900);
-    const height = (wanted.height ?? (several ? 380 : 460)) + kLegendRow * (legendRows(panel, width) - 1);
+    const height = (wanted.height ?? (several ? 380 : 460)) + kLegendRow * Math.max(0, legendRows(panel, width) - 1);
     return { title: panel.title, notes: notesOf(panel), width, height, svg: chartText(panel, figure, width, height) };
   });
+  return sheetOf(pictures);
 }
 
 /** Every figure as it is first shown, by its id. */
 export function drawSheets(text: string): string {
   const sheets: Record<string, string> = {};
   for (const [id, figure] of Object.entries(readFigures(text))) {
-    if (figure.frames.length) sheets[id] = sheetOf(picturesOf(figure, figure.frames[0].panels));
+    if (figure.frames.length) sheets[id] = sheetFor(figure, figure.frames[0].panels);
   }
   return JSON.stringify(sheets);
 }

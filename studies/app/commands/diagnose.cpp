@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "diagnosis_artefact.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
@@ -39,7 +40,7 @@ Error as_reported(Error error) {
 
 Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
                                               const std::filesystem::path& folder) {
-  const auto written = data::write_artefact(folder / "diagnosis.json", to_json(diagnosis));
+  const auto written = data::write_artefact(folder / "diagnosis.json", diagnosis_artefact(diagnosis));
   if (!written) return tl::unexpected(written.error());
   if (diagnosis.model) {
     const auto model = data::write_model(folder / "model.toml", *diagnosis.model);

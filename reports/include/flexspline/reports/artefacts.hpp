@@ -41,6 +41,7 @@ struct InputRecording {
 /// flexspline-input/1.
 struct Input {
   std::string id, title, kind, says, source, license;
+  std::string truth_id;  ///< of the virtual bench
   ShownUnits units;
   std::vector<InputRecording> recordings;
   std::map<std::string, Curve> truth;  ///< by function: f, g_inverse, h
@@ -92,6 +93,8 @@ struct Case {
   bool failed = false;
   std::string failure, remedy;
   std::string termination;
+  double cost = kAbsent;
+  double evaluations = kAbsent;
   double condition = kAbsent;
   std::string verdict, says;
   double seconds = kAbsent;
@@ -120,17 +123,23 @@ struct TableOneRow {
 };
 
 struct TableTwoRow {
-  std::string name, value, unit;
+  std::string name, value, ours, unit, says;
+};
+
+/// What is printed and cannot be meant.
+struct Slip {
+  std::string where, printed, meant;
 };
 
 struct PaperSeries {
   std::string name;
+  std::string side;  ///< paper | ours
   bool points = false;
   std::vector<double> x, y;
 };
 
 struct PaperFigure {
-  std::string id, title, x_label, y_label, says;
+  std::string id, title, x_label, y_label, says, wrong;
   std::vector<PaperSeries> series;
 };
 
@@ -139,6 +148,7 @@ struct Paper {
   std::vector<Fact> facts;
   std::vector<TableOneRow> table_1;
   std::vector<TableTwoRow> table_2;
+  std::vector<Slip> slips;
   std::vector<PaperFigure> figures;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,7 @@ struct ShownSeries {
   std::string recording, equation;
   bool trained = false;
   std::vector<double> time, motion, rate, measured, before, after;
+  std::vector<double> motor_angle;  ///< deg; empty where the artefact has none
 };
 
 struct ShownExperiment {
@@ -87,6 +89,7 @@ struct DiagnosisView {
   std::optional<ShownExperiment> next;
   std::vector<ShownSeries> series;
   std::vector<std::string> notes;
+  std::map<std::string, std::string> versions;  ///< of program and libraries
   double seconds = kAbsent;
   bool has_model = false;  ///< that simulate and fit take
 
@@ -99,11 +102,7 @@ struct DiagnosisView {
 /// diagnosis or its checksum does not hold.
 Result<DiagnosisView> read_diagnosis(const std::filesystem::path& folder);
 
-/// A row of the catalogue of a diagnosis' sections.
-struct DiagnosisSectionRow {
-  int order = 0;
-  std::optional<Section> (*draw)(const DiagnosisView& view) = nullptr;
-};
+using DiagnosisSectionRow = SectionOf<DiagnosisView>;
 
 /// Every section of a diagnosis, one file each in reports/diagnosis.
 std::span<const DiagnosisSectionRow> diagnosis_sections();

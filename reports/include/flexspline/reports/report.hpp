@@ -7,8 +7,9 @@
 namespace flexspline::reports {
 
 /// Draws the report of a folder from the artefacts in it alone (docs/artefacts.md): of a diagnosis
-/// (diagnosis.json: index.html), else of a trial (trial.json: report/index.html), else of a study,
-/// fit or comparison (report/index.html); with report/report.json, report/figures/*.svg (drawn by
+/// (diagnosis.json: index.html), else of a trial (trial.json: report/index.html), else of a
+/// verification (verification.json: index.html), else of a study, fit or comparison
+/// (report/index.html); with report/report.json, report/figures/*.svg (drawn by
 /// node where that is on PATH) and tables/*.csv|.md|.tex.
 /// The same artefacts give the same bytes. What is absent is left out; artefacts that cannot be
 /// read are named in the report. Gives the path of the page.

@@ -53,12 +53,15 @@ struct Section {
   }
 };
 
-/// A row of the catalogue of sections: where it stands, and how it is drawn. A section whose
-/// artefacts are absent gives nothing.
-struct SectionRow {
+/// A row of a catalogue of sections: where it stands, and how it is drawn from one kind of view. A
+/// section whose artefacts are absent gives nothing.
+template <class View>
+struct SectionOf {
   int order = 0;
-  std::optional<Section> (*draw)(const StudyView& view) = nullptr;
+  std::optional<Section> (*draw)(const View& view) = nullptr;
 };
+
+using SectionRow = SectionOf<StudyView>;
 
 /// Every section, one file each in reports/sections.
 std::span<const SectionRow> sections();

@@ -85,11 +85,7 @@ struct TrialView {
 /// result of a trial or its checksum does not hold.
 Result<TrialView> read_trial(const std::filesystem::path& folder);
 
-/// A row of the catalogue of a trial's sections.
-struct TrialSectionRow {
-  int order = 0;
-  std::optional<Section> (*draw)(const TrialView& view) = nullptr;
-};
+using TrialSectionRow = SectionOf<TrialView>;
 
 /// Every section of a trial, one file each in reports/trial.
 std::span<const TrialSectionRow> trial_sections();

@@ -113,6 +113,7 @@ struct DiagnosedSeries {
   Split split = Split::train;
   std::string equation;
   std::vector<double> time, motion, rate, measured, before, after;
+  std::vector<double> motor_angle{};  ///< rad; empty where the output is locked
 };
 
 struct Diagnosis {

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "figures/diagnosis_figures.hpp"
+#include "numbers.hpp"
+
+namespace flexspline::reports {
+namespace {
+
+constexpr std::size_t kPoints = 400;
+
+/// Of the recordings kept back, the one with the largest mismatch; else of all.
+const ShownSeries* shown_series(const DiagnosisView& view) {
+  const auto ordered = worst_first(view);
+  const auto kept = std::find_if(ordered.begin(), ordered.end(), [](const ShownSeries* one) {
+    return !one->trained && !one->measured.empty();
+  });
+  if (kept != ordered.end()) return *kept;
+  return ordered.empty() || ordered.front()->measured.empty() ? nullptr : ordered.front();
+}
+
+Panel panel_of(const DiagnosisView& view, const ShownSeries& series, const std::string& title,
+               const std::string& name, int rank, const std::vector<double>& model) {
+  Panel panel;
+  panel.title = title;
+  panel.x.label = "motion / " + view.units.motion;
+  panel.y.label = "effort / " + view.units.effort;
+  const auto x = thinned(series.motion, kPoints);
+  const auto y = thinned(series.measured, kPoints);
+  panel.series.push_back({"measured", "line", {"measured", 0}, x, y, {}, {}});
+  panel.series.push_back({name, "line", {"estimator", rank}, x, thinned(model, kPoints), {}, {}});
+  return panel;
+}
+
+/// Both models are judged on one scale.
+void share_efforts(std::vector<Panel>& panels) {
+  double lower = HUGE_VAL, upper = -HUGE_VAL;
+  for (const Panel& panel : panels) {
+    for (const Series& series : panel.series) {
+      for (const double y : series.y) {
+        lower = std::min(lower, y);
+        upper = std::max(upper, y);
+      }
+    }
+  }
+  for (Panel& panel : panels) panel.y.range = widened(lower, upper, 0.04);
+}
+
+}  // namespace
+
+Figure headline_figure(const DiagnosisView& view) {
+  Figure figure;
+  figure.id = "headline";
+  const ShownSeries* series = shown_series(view);
+  if (series == nullptr) return figure;
+  figure.title = (series->trained ? "One recording: " : "A recording that no fit had seen: ") +
+                 series->recording;
+  figure.caption = has_after(*series)
+                       ? "Left without, right with what was left out. The wide line is measured; "
+                         "what it shows beside the thin one is what the model lacks."
+                       : "The wide line is measured; what it shows beside the thin one is what the "
+                         "model lacks.";
+  figure.alt = "Hysteresis loop measured and modelled, without and with what was left out.";
+  Frame frame;
+  frame.panels.push_back(
+      panel_of(view, *series, has_after(*series) ? "without" : "", "baseline", 0, series->before));
+  if (has_after(*series)) {
+    frame.panels.push_back(
+        panel_of(view, *series, "with", "with what was left out", 1, series->after));
+  }
+  share_efforts(frame.panels);
+  figure.frames.push_back(std::move(frame));
+  return figure;
+}
+
+}  // namespace flexspline::reports

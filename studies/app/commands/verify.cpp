@@ -1,0 +1,168 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "diagnosis_artefact.hpp"
+#include "flexspline/data/artefact.hpp"
+#include "flexspline/data/dataset.hpp"
+#include "flexspline/reports/report.hpp"
+#include "flexspline/studies/trial.hpp"
+#include "flexspline/studies/verify.hpp"
+#include "run_folder.hpp"
+#include "stop_signal.hpp"
+#include "version.hpp"
+
+namespace flexspline::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+studies::RunSettings settings_of(const fs::path& again, long jobs, Console& console) {
+  studies::RunSettings settings;
+  settings.folder = again;
+  settings.jobs = static_cast<int>(jobs);
+  settings.build_id = build_id();
+  settings.versions = versions();
+  settings.stop = &stop_requested();
+  settings.progress = [&console](const studies::Progress& progress) {
+    console.live(
+        fmt::format("{}/{} cases, {:.1f} s", progress.done, progress.total, progress.seconds));
+  };
+  settings.log = [&console](std::string_view text) { console.detail(text); };
+  return settings;
+}
+
+Result<void> unless_interrupted(bool interrupted) {
+  if (!interrupted) return {};
+  return failure(ErrorCode::interrupted, "interrupted; nothing was compared",
+                 "the same command begins anew");
+}
+
+Result<void> run_study_again(const Arguments& arguments, const studies::RunSettings& settings,
+                             Console& console) {
+  const auto study =
+      arguments.has("study")
+          ? studies::load_study(arguments.text("study"), arguments.text("data-root"))
+          : studies::read_locked_study(fs::path(arguments.text("dir")) / "study.lock.toml",
+                                       arguments.text("data-root"));
+  if (!study) return tl::unexpected(study.error());
+  const auto plan = studies::plan_study(*study, build_id());
+  if (!plan) return tl::unexpected(plan.error());
+  const auto summary = studies::run_study(*plan, settings);
+  if (!summary) return tl::unexpected(summary.error());
+  for (const std::string& failed : summary->failed) console.detail(failed);
+  return unless_interrupted(summary->interrupted);
+}
+
+Result<void> run_trial_again(const Arguments& arguments, const studies::RunSettings& settings) {
+  if (!arguments.has("study")) {
+    return failure(ErrorCode::usage, "a trial's folder does not say which file it came from",
+                   "add --study TRIAL.toml");
+  }
+  const auto trial = studies::load_trial(arguments.text("study"));
+  if (!trial) return tl::unexpected(trial.error());
+  studies::TrialSettings all;
+  all.run = settings;
+  const auto summary = studies::run_trial(*trial, all);
+  if (!summary) return tl::unexpected(summary.error());
+  return unless_interrupted(summary->run.interrupted);
+}
+
+Result<void> diagnose_again(const Arguments& arguments, const fs::path& again) {
+  if (!arguments.has("dataset")) {
+    return failure(ErrorCode::usage, "a diagnosis does not say where its recordings lie",
+                   "add --dataset DATASET");
+  }
+  const auto recordings = data::load_dataset(arguments.text("dataset"));
+  if (!recordings) return tl::unexpected(recordings.error());
+  const auto diagnosis = studies::diagnose(*recordings);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  return data::write_artefact(again / "diagnosis.json", diagnosis_artefact(*diagnosis));
+}
+
+/// What the folder says, computed once more into another one.
+Result<void> run_again(const Arguments& arguments, const fs::path& again, Console& console) {
+  const fs::path folder = arguments.text("dir");
+  const Result<long> jobs = jobs_of(arguments);
+  if (!jobs) return tl::unexpected(jobs.error());
+  std::error_code ignored;
+  fs::remove_all(again, ignored);
+  catch_stop_signals();
+  const studies::RunSettings settings = settings_of(again, *jobs, console);
+  if (fs::exists(folder / "diagnosis.json")) return diagnose_again(arguments, again);
+  if (fs::exists(folder / "trial.json")) return run_trial_again(arguments, settings);
+  return run_study_again(arguments, settings, console);
+}
+
+std::string text_of(const studies::Verification& verification) {
+  std::string text = fmt::format("{}: {}", name_of(verification.level), verification.says);
+  for (const studies::Circumstance& one : verification.changed) {
+    text += fmt::format("\n  {:<13} {}: {} -> {}", one.kind, one.name, one.before, one.after);
+  }
+  for (const studies::ArtefactCheck& one : verification.artefacts) {
+    if (one.level <= studies::Agreement::numeric) continue;
+    text += fmt::format("\n  {:<13} {}", name_of(one.level), one.artefact);
+    if (!one.reason.empty()) text += ": " + one.reason;
+    if (one.worst.empty()) continue;
+    const studies::Difference& worst = one.worst.front();
+    text += fmt::format(": {} {} -> {}", worst.where, worst.before, worst.after);
+  }
+  return text;
+}
+
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
+  const fs::path folder = arguments.text("dir");
+  const fs::path out = arguments.text("out", (folder / "verification").string());
+  fs::path against = arguments.text("against");
+  if (against.empty()) {
+    against = out / "again";
+    if (auto done = run_again(arguments, against, console); !done) {
+      return tl::unexpected(in_context(done.error(), "verify"));
+    }
+  }
+  const auto verification = studies::verify_folders(folder, against);
+  if (!verification) return tl::unexpected(verification.error());
+  const auto json = to_json(*verification);
+  if (auto written = data::write_artefact(out / "verification.json", json); !written) {
+    return tl::unexpected(written.error());
+  }
+  const auto page = reports::write_report(out);
+  if (!page) return tl::unexpected(page.error());
+  console.result(console.json ? json.dump(2) : text_of(*verification) + "\n" + page->string());
+  return verification->holds() ? kDone : kSomethingFailed;
+}
+
+}  // namespace
+
+CommandRow describe_verify() {
+  return {
+      .id = "verify",
+      .summary =
+          "Reproducibility check: computes a folder again and compares, bitwise, numerically and "
+          "statistically, with a reason for each difference",
+      .arguments =
+          {{.name = "dir",
+            .meaning = "folder of a run, fit, comparison, diagnosis or trial",
+            .value = "DIR",
+            .required = true},
+           {.name = "--against",
+            .meaning = "compare with this folder instead of computing again",
+            .value = "OTHER"},
+           {.name = "--study",
+            .meaning = "study or trial file; default: what study.lock.toml holds",
+            .value = "STUDY.toml"},
+           {.name = "--dataset", .meaning = "recordings of a diagnosis", .value = "DATASET"},
+           {.name = "--data-root",
+            .meaning = "where relative data-set paths start, if not here",
+            .value = "DIR"},
+           {.name = "--out",
+            .meaning = "folder for the second run and the page; default: DIR/verification",
+            .value = "DIR"},
+           {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"}},
+      .example = "flexspline verify out/paper",
+      .run = run};
+}
+
+}  // namespace flexspline::app

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "flexspline/core/write_file.hpp"
+#include "flexspline/data/artefact.hpp"
+#include "flexspline/studies/verify.hpp"
+#include "verify/circumstances.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Artefacts of a folder by their place in it; those that are drawn from others are left out.
+std::set<std::string> artefacts_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const char* name : {"paper.json", "diagnosis.json", "trial.json"}) {
+    if (fs::exists(folder / name)) names.insert(name);
+  }
+  std::error_code ignored;
+  for (const char* part : {"inputs", "cases"}) {
+    for (const auto& entry : fs::directory_iterator(folder / part, ignored)) {
+      const fs::path& path = entry.path();
+      if (path.extension() == ".json")
+        names.insert(std::string(part) + "/" + path.filename().string());
+    }
+  }
+  return names;
+}
+
+/// An artefact whose checksum holds, whatever its schema is.
+Result<ordered_json> read_any(const fs::path& file) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  const auto content = ordered_json::parse(*text, nullptr, false);
+  if (!content.is_object()) return failure(ErrorCode::bad_data, "it is not JSON");
+  return data::read_artefact(file, content.value("schema", ""));
+}
+
+ArtefactCheck broken(const std::string& name, const char* whose, const Error& error) {
+  ArtefactCheck check;
+  check.artefact = name;
+  check.level = error.code == ErrorCode::input_missing ? Agreement::missing : Agreement::differs;
+  check.reason = check.level == Agreement::missing
+                     ? fmt::format("only the other run has it, not {}", whose)
+                     : fmt::format("in {}: {}", whose, error.problem);
+  return check;
+}
+
+ArtefactCheck check_one(const std::string& name, const fs::path& folder, const fs::path& against,
+                        bool changed) {
+  const auto before = read_any(folder / name);
+  if (!before) return broken(name, "the folder to verify", before.error());
+  const auto after = read_any(against / name);
+  if (!after) return broken(name, "the run to compare with", after.error());
+  ArtefactCheck check = compare_artefacts(*before, *after, changed);
+  check.artefact = name;
+  return check;
+}
+
+/// Kinds of what changed, each once.
+std::string kinds_of(const std::vector<Circumstance>& changed) {
+  std::vector<std::string> kinds;
+  for (const Circumstance& one : changed) {
+    if (std::ranges::find(kinds, one.kind) == kinds.end()) kinds.push_back(one.kind);
+  }
+  return fmt::format("{}", fmt::join(kinds, ", "));
+}
+
+std::string explanation_of(const Verification& verification) {
+  const std::string kinds = kinds_of(verification.changed);
+  switch (verification.level) {
+    case Agreement::bitwise:
+      return kinds.empty() ? "Data, code, libraries, seeds and configuration are the same."
+                           : fmt::format("That although these changed: {}.", kinds);
+    case Agreement::numeric:
+      return kinds.empty()
+                 ? "Nothing that is recorded changed: it is rounding, within the tolerances."
+                 : fmt::format("What is different is within the tolerances; changed: {}.", kinds);
+    default:
+      break;
+  }
+  if (kinds.empty()) {
+    return "Data, code, libraries, seeds and configuration are the same, so none of them explains "
+           "it: an artefact was changed or lost after it was written, or the computation is not "
+           "repeatable.";
+  }
+  return fmt::format("What changed since, and may explain it: {}.", kinds);
+}
+
+std::string result_of(const Verification& verification) {
+  std::map<Agreement, std::size_t> counts;
+  for (const ArtefactCheck& one : verification.artefacts) ++counts[one.level];
+  std::vector<std::string> parts;
+  for (const auto& [level, count] : counts) {
+    constexpr std::array<const char*, 5> kWords = {
+        "the same to the last bit", "the same within tolerance", "in statistical agreement",
+        "different", "missing"};
+    parts.push_back(fmt::format("{} {}", count, kWords[static_cast<std::size_t>(level)]));
+  }
+  return fmt::format("Of {} artefacts, {}.", verification.artefacts.size(), fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::string_view name_of(Agreement agreement) {
+  constexpr std::array<std::string_view, 5> names = {"bitwise", "numeric", "statistical", "differs",
+                                                     "missing"};
+  return names[static_cast<std::size_t>(agreement)];
+}
+
+bool Verification::holds() const { return level <= Agreement::statistical; }
+
+Result<Verification> verify_folders(const fs::path& folder, const fs::path& against) {
+  Verification verification{folder.string(), against.string(), {}, {}, {}, {}};
+  std::set<std::string> names = artefacts_in(folder);
+  if (names.empty()) {
+    return failure(ErrorCode::input_missing, folder.string() + " holds no artefact to verify",
+                   "give the folder that run, fit, compare, diagnose or trial wrote");
+  }
+  names.merge(artefacts_in(against));
+  verification.changed = changed_circumstances(folder, against);
+  for (const std::string& name : names) {
+    verification.artefacts.push_back(
+        check_one(name, folder, against, !verification.changed.empty()));
+    verification.level = std::max(verification.level, verification.artefacts.back().level);
+  }
+  verification.says = result_of(verification) + " " + explanation_of(verification);
+  return verification;
+}
+
+}  // namespace flexspline::studies
