@@ -42,15 +42,24 @@ tl::unexpected<Error> refusal(const EffectRow& row, std::string_view needs) {
       "simulate displacement-driven, or take the effect out of the model");
 }
 
-Result<void> check(const EffectRow& row, std::span<const double> values, bool closed_loop) {
+// A recorded torque tells the rate of the true one, to the memory of its sensor.
+bool sensor_remembers(const EffectRow& row, std::span<const double> values, const Dependence& one,
+                      TorqueFrom torque) {
+  return torque == TorqueFrom::recorded && row.site == Site::torque_signal &&
+         one.member == &Instant<Complex>::transmitted_torque_rate &&
+         !term_depends_on(row, values, one.member);
+}
+
+Result<void> check(const EffectRow& row, std::span<const double> values, TorqueFrom torque) {
   if (row.real.term == nullptr || row.map != nullptr) {
     return refusal(row, "whole signal");
   }
   if (row.states > 0 && row.real.rate == nullptr) return refusal(row, "path between samples");
   for (const Dependence& one : kNeverKnown) {
+    if (sensor_remembers(row, values, one, torque)) continue;
     if (depends_on(row, values, one.member)) return refusal(row, one.name);
   }
-  if (closed_loop && term_depends_on(row, values, kUnknownInALoop.member)) {
+  if (torque == TorqueFrom::loop && term_depends_on(row, values, kUnknownInALoop.member)) {
     return refusal(row, kUnknownInALoop.name);
   }
   if (row.site != Site::kinematics) return {};
@@ -63,7 +72,7 @@ Result<void> check(const EffectRow& row, std::span<const double> values, bool cl
 }  // namespace
 
 Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveConstant> constants,
-                                    std::vector<Site> signals, bool closed_loop) {
+                                    std::vector<Site> signals, TorqueFrom torque) {
   DriveModel model;
   model.drive_ = drive;
   model.constants_ = std::move(constants);
@@ -87,7 +96,7 @@ Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveCon
     if (on_instrument((*row)->site) && std::ranges::find(signals, (*row)->site) == signals.end()) {
       continue;
     }
-    if (auto good = check(**row, *values, closed_loop); !good) return tl::unexpected(good.error());
+    if (auto good = check(**row, *values, torque); !good) return tl::unexpected(good.error());
     use.follows_torsion = depends_on(**row, *values, &Instant<Complex>::torsion);
     use.follows_torque = depends_on(**row, *values, &Instant<Complex>::transmitted_torque);
     use.follows_motor = term_depends_on(**row, *values, &Instant<Complex>::motor_angle);
@@ -99,6 +108,7 @@ Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveCon
       model.follows_torque_ |= of_torque || (*row)->states > 0;
     }
     use.states = state_count(**row, values->size());
+    model.sensor_remembers_ |= (*row)->site == Site::torque_signal && use.states > 0;
     model.memory_ += use.states;
     model.effects_.push_back(use);
   }

@@ -34,9 +34,7 @@ EffectRow describe_torque_sensor_nonlinearity() {
       .site = Site::torque_signal,
       .equation = "tau_measured = tau + c tau^3 + H s/T, s' = tau' unless |s| = T",
       .range = "within the sensor's full scale; its hysteresis starts unloaded",
-      .not_modelled =
-          "an even part; hysteresis of more than one width; the motion that the torque shown "
-          "made, for which the memory needs the rate of the true torque",
+      .not_modelled = "an even part; hysteresis of more than one width",
       .source = "data sheets of torque sensors: 0.05 to 0.3 % of full scale, rate-independent",
       .parameters = {{"cubic", "1/Nm2", -1.0, 1.0, 2e-8, "0.1 % of full scale at 226 Nm"},
                      {"hysteresis", "Nm", 0.0, 1e4, 0.2, "0.1 % of 226 Nm, half height"},

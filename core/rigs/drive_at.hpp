@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -137,6 +138,23 @@ class DriveAt {
                                       return sum(Site::torque_signal, moved);
                                     }));
     }
+  }
+
+  /// The rate of the true torque behind a recorded one, likewise, where the sensor remembers.
+  S true_torque_rate(Instant<S> x, double recorded_rate) const {
+    const double step = std::min(1e-4, 1e-3 / (std::abs(recorded_rate) + 1e-300));
+    x.transmitted_torque_rate = S(recorded_rate);
+    for (int k = 0; k < 40; ++k) {
+      S added(0.0);
+      for (const EffectUse& use : model_.effects()) {
+        if (use.row->site != Site::torque_signal) continue;
+        std::vector<S> rates(use.states, S(0.0));
+        if (use.states > 0) memory_rate(use, x, rates);
+        added += difference(step, [&](double by) { return term_moved(use, x, rates, by); });
+      }
+      x.transmitted_torque_rate = S(recorded_rate - added);
+    }
+    return x.transmitted_torque_rate;
   }
 
   /// Time derivatives of the effects' memory. Kinematics see the rigid motion, without themselves.

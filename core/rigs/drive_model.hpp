@@ -23,14 +23,18 @@ struct EffectUse {
   bool follows_load = false;
 };
 
+/// given: an input, or nothing. loop: a controller, after the equations are solved. recorded: the
+/// specimen's own, as its sensor shows it, known with its rate.
+enum class TorqueFrom { given, loop, recorded };
+
 /// The laws and effects of a drive, made once, for use at any scalar by DriveAt.
 class DriveModel {
  public:
   /// Errors: a law or effect that cannot be made, or that a forward simulation cannot carry.
-  /// signals: the instruments' effects that the rig takes into its equations. closed_loop: a
-  /// controller makes the motor torque.
+  /// signals: the instruments' effects that the rig takes into its equations. torque: who makes the
+  /// motor's torque or the specimen's.
   static Result<DriveModel> make(const DriveSpec& drive, std::vector<DriveConstant> constants,
-                                 std::vector<Site> signals, bool closed_loop = false);
+                                 std::vector<Site> signals, TorqueFrom torque = TorqueFrom::given);
 
   const DriveSpec& drive() const { return drive_; }
   std::span<const DriveConstant> constants() const { return constants_; }
@@ -41,6 +45,8 @@ class DriveModel {
   bool has(Site site) const;
   /// Kinematics follow the torque that they help to make.
   bool kinematics_follow_torque() const { return follows_torque_; }
+  /// An effect on the torque's sensor has a memory.
+  bool sensor_remembers() const { return sensor_remembers_; }
   /// They do so at once, so that the torsion of the law is a state of the rig.
   bool torsion_is_state() const { return torsion_is_state_; }
   /// Errors: kinematics that grow with the torque at some motor angle.
@@ -75,6 +81,7 @@ class DriveModel {
   std::size_t memory_ = 0;
   bool follows_torque_ = false;
   bool torsion_is_state_ = false;
+  bool sensor_remembers_ = false;
   mutable std::array<std::unique_ptr<Law>, 3> laws_;
 };
 

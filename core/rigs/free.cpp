@@ -37,8 +37,8 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   const auto form =
       checked_form(row, drive, inputs, name, {"gear_ratio", "motor_inertia", "load_inertia"});
   if (!form) return tl::unexpected(form.error());
-  auto model =
-      DriveModel::make(drive, row.constants, {Site::motor_torque_signal}, name == "position_loop");
+  auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal},
+                                name == "position_loop" ? TorqueFrom::loop : TorqueFrom::given);
   if (!model) return tl::unexpected(model.error());
   if (auto good = model->check_yielding(); !good) return tl::unexpected(good.error());
   auto states = states_with_kinematics(*model, **form);

@@ -98,8 +98,8 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
                         ? checked_form(row, drive, inputs, name, {"gear_ratio"})
                         : checked_form(row, drive, inputs, name, {"gear_ratio", "motor_inertia"});
   if (!form) return tl::unexpected(form.error());
-  auto model =
-      DriveModel::make(drive, row.constants, {Site::motor_torque_signal}, name == "position_loop");
+  auto model = DriveModel::make(drive, row.constants, {Site::motor_torque_signal},
+                                name == "position_loop" ? TorqueFrom::loop : TorqueFrom::given);
   if (!model) return tl::unexpected(model.error());
   if (auto good = model->check_yielding(); !good) return tl::unexpected(good.error());
   if (reduced && model->torsion_is_state() && !(drive.motor_viscous > 0.0)) {

@@ -27,6 +27,9 @@ struct Specimen {
                          [&](const S& v) { return S(recorded(at, x, v) - S(wanted)); },
                          model.drive().torsion.g_inverse.scale);
     recorded(at, x, speed);
+    if (model.sensor_remembers()) {
+      x.transmitted_torque_rate = at.true_torque_rate(x, rate_of(input(inputs, effort), t));
+    }
     ydot[0] = speed;
     Instant<S> rigid = at_speed(start(t, y[0]), speed);
     enter_torque(at, rigid);
@@ -102,7 +105,7 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   const auto form = checked_form(row, drive, given, name, {});
   if (!form) return tl::unexpected(form.error());
   if ((*form)->id == "displacement_driven") return make_moved(**form, drive, std::move(given));
-  auto model = DriveModel::make(drive, row.constants, {Site::torque_signal});
+  auto model = DriveModel::make(drive, row.constants, {Site::torque_signal}, TorqueFrom::recorded);
   if (!model) return tl::unexpected(model.error());
   return std::make_unique<RigSystemOf<Specimen>>(
       Specimen{std::move(*model), std::move(given), (*form)->states});
