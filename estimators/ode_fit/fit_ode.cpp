@@ -90,6 +90,15 @@ Result<OdeFit> fit_ode(const OdeFitProblem& problem, OdeFitMethod method,
   }
   auto fit = with_statistics(layout, *solution, settings);
   if (!fit) return tl::unexpected(in_context(fit.error(), std::string(name_of(method))));
+  // Refits of a bootstrap weigh anew themselves; inequalities leave no free parameters to widen.
+  if (settings.weighting == Weighting::coloured && layout.inequalities == nullptr &&
+      settings.uncertainty.kind == Uncertainty::covariance) {
+    std::vector<double> q = solution->q;
+    const auto active = settle_on_bounds(layout, q);
+    const auto widened =
+        widen_for_noise(layout, q, active, settings.integration_tolerance, noise, *fit);
+    if (!widened) return tl::unexpected(widened.error());
+  }
   fit->method = method;
   fit->noise = std::move(noise);
   return fit;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "ode_fit/weighted_shooting.hpp"
+#include "uncertainty/noise_mixture.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -31,8 +32,8 @@ std::vector<Eigen::Index> free_columns(const std::vector<bool>& bound_active) {
   return free;
 }
 
-// Columns of all outputs to length one.
-void scale_slopes(std::vector<OutputResiduals>& outputs, Eigen::Index columns) {
+// Columns of all outputs to length one; what their lengths were.
+Eigen::VectorXd scale_slopes(std::vector<OutputResiduals>& outputs, Eigen::Index columns) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(columns);
   for (const auto& output : outputs) {
     for (const auto& one : output.series) squares += one.slope.colwise().squaredNorm();
@@ -41,6 +42,7 @@ void scale_slopes(std::vector<OutputResiduals>& outputs, Eigen::Index columns) {
   for (auto& output : outputs) {
     for (auto& one : output.series) one.slope = one.slope * length.cwiseInverse().asDiagonal();
   }
+  return length;
 }
 
 // Residuals by output with their slopes by what is free, over the sigmas that the layout has.
@@ -68,7 +70,6 @@ Result<std::vector<OutputResiduals>> residuals_of(const OdeLayout& layout,
       result[o].series.push_back(std::move(series));
     }
   }
-  scale_slopes(result, static_cast<Eigen::Index>(free.size()));
   return result;
 }
 
@@ -123,8 +124,9 @@ Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q,
                           std::vector<OutputNoise>& noise) {
   const auto free = free_columns(bound_active);
   const auto columns = static_cast<Eigen::Index>(free.size());
-  const auto outputs = residuals_of(layout, q, free, settings.integration_tolerance);
+  auto outputs = residuals_of(layout, q, free, settings.integration_tolerance);
   if (!outputs) return tl::unexpected(outputs.error());
+  scale_slopes(*outputs, columns);
   double rows = 0.0;
   for (const auto& one : *outputs) rows += static_cast<double>(one.pooled().size());
   const double growth = std::sqrt(rows / std::max(1.0, rows - static_cast<double>(free.size())));
@@ -148,6 +150,38 @@ Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q,
     noise[o] = {noise[o].factor * found.sigma, found.share, found.time};
   }
   return change;
+}
+
+Result<void> widen_for_noise(const OdeLayout& layout, std::span<const double> q,
+                             const std::vector<bool>& bound_active, double tolerance,
+                             const std::vector<OutputNoise>& noise, OdeFit& fit) {
+  const auto free = free_columns(bound_active);
+  const bool coloured =
+      std::ranges::any_of(noise, [](const OutputNoise& one) { return one.share > 0.0; });
+  if (free.empty() || !coloured || !(fit.degrees_of_freedom > 0.0)) return {};
+  auto outputs = residuals_of(layout, q, free, tolerance);
+  if (!outputs) return tl::unexpected(outputs.error());
+  const Eigen::VectorXd length = scale_slopes(*outputs, static_cast<Eigen::Index>(free.size()));
+  std::vector<std::vector<TimedSeries>> series;
+  std::vector<ColouredNoise> at;
+  for (std::size_t o = 0; o < outputs->size(); ++o) {
+    if ((*outputs)[o].pooled().empty()) continue;
+    series.push_back((*outputs)[o].series);
+    at.push_back({1.0, noise[o].share, noise[o].time});
+  }
+  const NoiseMixture mixture = over_noise(series, at, fit.degrees_of_freedom);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    ParameterEstimate& one = fit.parameters[static_cast<std::size_t>(free[i])];
+    const double std = mixture.std[k] / length[k];
+    const double growth = std / one.std;
+    one.std = std;
+    one.ci95_lower = one.value + mixture.lower[k] / length[k];
+    one.ci95_upper = one.value + mixture.upper[k] / length[k];
+    fit.covariance.row(free[i]) *= growth;
+    fit.covariance.col(free[i]) *= growth;
+  }
+  return {};
 }
 
 }  // namespace flexspline::estimators

@@ -13,4 +13,11 @@ Result<double> weigh_anew(OdeLayout& layout, std::span<const double> q,
                           const std::vector<bool>& bound_active, const OdeFitSettings& settings,
                           std::vector<OutputNoise>& noise);
 
+/// Standard deviations, intervals and covariance of a fit in coloured noise, widened by what is not
+/// known of the noise: its share and time were estimated too (noise_mixture.hpp). Nothing where
+/// every output is white.
+Result<void> widen_for_noise(const OdeLayout& layout, std::span<const double> q,
+                             const std::vector<bool>& bound_active, double tolerance,
+                             const std::vector<OutputNoise>& noise, OdeFit& fit);
+
 }  // namespace flexspline::estimators

@@ -120,11 +120,11 @@ Point coarse_search(std::span<const TimedSeries> series, const OtherInformation&
 }
 
 // Compass search: derivatives are not worth having here.
-Point refined(std::span<const TimedSeries> series, const OtherInformation& other,
-              const Spread& spread, Point best) {
+Point refined(std::span<const TimedSeries> series, const OtherInformation& other, Point best) {
   double sigma = 0.0;
-  const double from = std::log(0.1 * spread.shortest);
-  const double to = std::log(2.0 * spread.longest);
+  const NoiseRange range = noise_range(series);
+  const double from = std::log(range.shortest);
+  const double to = std::log(range.longest);
   double share_step = 0.05;
   double time_step = 0.3;
   while (share_step > kFinest) {
@@ -183,6 +183,18 @@ double WhiteningFilter::log_variance() const {
   return sum;
 }
 
+NoiseLikelihood likelihood_of(std::span<const TimedSeries> series, const OtherInformation& other,
+                              double share, double time) {
+  NoiseLikelihood result{{1.0, share, time}, 0.0};
+  result.deviance = deviance(series, other, share, time, result.noise.sigma);
+  return result;
+}
+
+NoiseRange noise_range(std::span<const TimedSeries> series) {
+  const Spread spread = spread_of(series);
+  return {0.1 * spread.shortest, 2.0 * spread.longest, kMostShare};
+}
+
 OtherInformation information_of(std::span<const TimedSeries> series, const ColouredNoise& noise) {
   return sums_of(series, noise).by_parameters;
 }
@@ -193,7 +205,7 @@ ColouredNoise estimate_noise(std::span<const TimedSeries> series, const OtherInf
   if (spread.count == 0) return white;
   const double flat = deviance(series, other, 0.0, 0.0, white.sigma);
   if (!(spread.longest > 0.0) || !std::isfinite(flat)) return white;
-  const Point best = refined(series, other, spread, coarse_search(series, other, spread));
+  const Point best = refined(series, other, coarse_search(series, other, spread));
   const double asked = 2.0 * std::log(static_cast<double>(spread.count));
   if (!(best.deviance + asked < flat)) return white;
   ColouredNoise noise{1.0, best.share, std::exp(best.log_time)};

@@ -34,6 +34,24 @@ struct OtherInformation {
 ColouredNoise estimate_noise(std::span<const TimedSeries> series,
                              const OtherInformation& other = {});
 
+/// How likely noise of a share and a time is: with the sigma that suits best, and minus twice the
+/// (restricted) log-likelihood, up to a constant that all points of the same series share.
+struct NoiseLikelihood {
+  ColouredNoise noise;
+  double deviance = 0.0;
+};
+NoiseLikelihood likelihood_of(std::span<const TimedSeries> series, const OtherInformation& other,
+                              double share, double time);
+
+/// Times that are worth looking at: from a tenth of the interval of samples to twice the longest
+/// series. Largest share: the rest keeps the filter regular.
+struct NoiseRange {
+  double shortest = 0.0;
+  double longest = 0.0;
+  double largest_share = 0.0;
+};
+NoiseRange noise_range(std::span<const TimedSeries> series);
+
 /// J'J and J'r of series in such noise.
 OtherInformation information_of(std::span<const TimedSeries> series, const ColouredNoise& noise);
 

@@ -1,4 +1,4 @@
-// What coloured noise does to 95 % intervals, and how far it can be put right.
+// What coloured noise does to 95 % intervals, and how it is put right.
 #include <cmath>
 #include <random>
 
@@ -46,22 +46,28 @@ double coverage(const OdeFitSettings& settings, unsigned recordings) {
   return static_cast<double>(held) / recordings;
 }
 
-// A recording of 33 correlation times, short of what would tell the noise exactly: innovations hold
-// 90 % and blocks 78 %, where white noise would have held 45 %. Neither reaches 95 %.
-TEST(ColouredCoverage, IsMostlyRestored) {
+// A recording of 33 correlation times is short of what would tell the noise exactly. Seeds 1 to
+// 1000: integrated over what is not known of the noise, intervals hold 95.0 +- 1.4 %, two standard
+// deviations of the count; taken as known it was 90 %.
+TEST(ColouredCoverage, InnovationsHoldWhatTheyClaim) {
   OdeFitSettings settings{.integration_tolerance = 1e-8};
   settings.propose_recording = false;
-  const double white = coverage(settings, 400);
   settings.weighting = Weighting::coloured;
-  const double coloured = coverage(settings, 400);
-  settings.weighting = Weighting::given;
+  const double coloured = coverage(settings, 1000);
+  std::printf("by innovations %.3f\n", coloured);
+  EXPECT_GE(coloured, 0.936);
+  EXPECT_LE(coloured, 0.964);
+}
+
+// White noise would have held 45 %, blocks 78 %.
+TEST(ColouredCoverage, WithoutTheColourItIsLost) {
+  OdeFitSettings settings{.integration_tolerance = 1e-8};
+  settings.propose_recording = false;
+  const double white = coverage(settings, 300);
   settings.uncertainty = {.kind = Uncertainty::bootstrap_block, .replicates = 80};
-  const double blocks = coverage(settings, 100);
-  std::printf("taken as white %.3f, by innovations %.3f, by blocks %.3f\n", white, coloured,
-              blocks);
+  const double blocks = coverage(settings, 60);
+  std::printf("taken as white %.3f, by blocks %.3f\n", white, blocks);
   EXPECT_LT(white, 0.55);
-  EXPECT_GE(coloured, 0.87);
-  EXPECT_LE(coloured, 0.98);
   EXPECT_GE(blocks, white + 0.2);
 }
 

@@ -240,7 +240,11 @@ TEST(OdeFit, WeighsColouredNoiseByItsInnovations) {
     const Eigen::VectorXd weight = covariance.ldlt().solve(Eigen::VectorXd::Ones(n));
     const Eigen::Map<const Eigen::VectorXd> values(drawn.value.data(), n);
     EXPECT_NEAR(fit->parameters[0].value, weight.dot(values) / weight.sum(), 1e-6);
-    EXPECT_NEAR(fit->parameters[0].std, fit->noise_factor / std::sqrt(weight.sum()), 1e-6);
+    // That of least squares in noise that is known, and a little for its being estimated.
+    const double known = fit->noise_factor / std::sqrt(weight.sum());
+    EXPECT_GT(fit->parameters[0].std, 1.02 * known);
+    EXPECT_LT(fit->parameters[0].std, 1.15 * known);
+    EXPECT_GT(fit->parameters[0].ci95_upper - fit->parameters[0].value, 2.0 * known);
     levels.push_back(fit->parameters[0].value);
   }
   EXPECT_NEAR(levels[0], levels[1], 1e-6);
