@@ -149,6 +149,11 @@ Result<OdeFit> with_statistics(const OdeLayout& layout, const OdeSolution& solut
              .active_inequalities = solution.active_inequalities};
   std::vector<double> q = solution.q;
   const auto active = settle_on_bounds(layout, q);
+  if (layout.inequalities != nullptr) {
+    const auto parameters = std::span(q).first(layout.system->parameters());
+    for (auto& says : layout.inequalities->between(parameters))
+      fit.notes.push_back(std::move(says));
+  }
   const auto count = static_cast<Eigen::Index>(q.size());
   fit.covariance = Eigen::MatrixXd::Constant(count, count, kNotComputed);
   const auto at = linear_at(layout, q, settings.integration_tolerance);

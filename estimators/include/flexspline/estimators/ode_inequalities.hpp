@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "flexspline/core/hyper_dual.hpp"
 
@@ -19,6 +20,8 @@ class OdeInequalities {
   virtual void values(std::span<const double> p, std::span<double> g) const = 0;
   /// With exact first and second derivatives.
   virtual void values(std::span<const HyperDual> p, std::span<HyperDual> g) const = 0;
+  /// Where the functions stand for a limit on a whole range: what holds on all of it, in sentences.
+  virtual std::vector<std::string> between(std::span<const double>) const { return {}; }
 };
 
 /// Inequalities whose functions are written once: Derived has count(), name(i), lower(i), upper(i)

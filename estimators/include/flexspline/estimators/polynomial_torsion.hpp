@@ -62,7 +62,7 @@ class PolynomialTorsion final : public OdeLaw<PolynomialTorsion> {
 };
 
 /// f' >= slope and g' >= slope (in f1 and g1), lowest <= h <= highest at even points from 0 to 1 of
-/// x and z: between them the polynomials are not held.
+/// x and z. What the fitted polynomials do between the points, `between` proves after the fit.
 class PolynomialTorsionLimits final : public OdeInequalityLaw<PolynomialTorsionLimits> {
  public:
   struct Limits {
@@ -78,6 +78,8 @@ class PolynomialTorsionLimits final : public OdeInequalityLaw<PolynomialTorsionL
   std::string name(std::size_t i) const override;
   double lower(std::size_t i) const override;
   double upper(std::size_t i) const override;
+  /// The least of f' and g' and the extremes of h over 0 to 1, within 1e-9 by Bernstein's bounds.
+  std::vector<std::string> between(std::span<const double> p) const override;
 
   template <class S>
   void functions(std::span<const S> p, std::span<S> values) const {
