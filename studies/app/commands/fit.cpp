@@ -6,9 +6,11 @@
 #include "command.hpp"
 #include "dataset_study.hpp"
 #include "flexspline/data/artefact.hpp"
+#include "flexspline/data/dataset.hpp"
 #include "flexspline/data/estimate_json.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "run_folder.hpp"
+#include "servo_set.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -80,6 +82,17 @@ Result<studies::StudyConfig> study_of(const Arguments& arguments,
   return study;
 }
 
+/// A model file on a servo's recordings; nothing where the set is another rig's.
+std::optional<Result<ExitCode>> run_on_servo(const Arguments& arguments,
+                                             const studies::StudyConfig& study, Console& console) {
+  const auto& model = study.estimators.front().model;
+  if (!model) return std::nullopt;
+  auto set = data::load_dataset(arguments.text("dataset"));
+  if (!set || set->rig != Rig::servo) return std::nullopt;
+  return fit_servo_set(std::move(*set), *model, study.inputs.front().held_out,
+                       arguments.text("out"), console);
+}
+
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const Result<long> jobs = jobs_of(arguments);
   if (!jobs) return tl::unexpected(jobs.error());
@@ -87,6 +100,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!options) return tl::unexpected(options.error());
   const auto study = study_of(arguments, *options);
   if (!study) return tl::unexpected(study.error());
+  if (auto servo = run_on_servo(arguments, *study, console)) return *std::move(servo);
   const std::filesystem::path folder = arguments.text("out");
   const std::string key =
       fmt::format("{}--{}--r0", study->inputs.front().id, study->estimators.front().id);

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "flexspline/core/drive_spec.hpp"
+#include "flexspline/estimators/method.hpp"
+
+namespace flexspline::estimators {
+
+struct ServoFit {
+  Estimate estimate;
+  DriveSpec drive;
+};
+
+struct ServoSettings {
+  int most_iterations = 40;
+  std::size_t every = 4;  ///< every how manieth sample has a residual
+  double tolerance = 1e-6;
+};
+
+/// Output error of a servo: its angle is simulated from the first sample of every training
+/// recording on, by the duty cycle and the supply alone, and compared with the one measured (single
+/// shooting, CVODES, Ceres). Unknown: torque constant (equal to that of the back-EMF, SI),
+/// resistance, motor inertia, and the parameters of the model's effects that are not held; its laws
+/// have no say, the transmission being rigid. Known: load_mass_kg and arm_length_m of the set, as a
+/// point mass. Starts of the drive's constants come from the equation error, those of effects from
+/// the model. Standard deviations are widened by what neighbouring residuals have in common.
+/// Errors: input_missing, where the set lacks a channel or constant; those of fit_ode.
+Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
+                           const ServoSettings& settings = {});
+
+/// The angle of a servo at a recording's instants, from its first sample on, rad.
+/// Errors: those of the integration.
+Result<std::vector<double>> simulate_servo(const DriveSpec& drive, const Recording& recording,
+                                           double tolerance = 1e-6);
+
+}  // namespace flexspline::estimators

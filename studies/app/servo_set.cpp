@@ -1,0 +1,114 @@
+#include "servo_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "flexspline/data/artefact.hpp"
+#include "flexspline/data/estimate_json.hpp"
+#include "flexspline/data/model_toml.hpp"
+#include "flexspline/estimators/servo_fit.hpp"
+
+namespace flexspline::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+Result<void> hold_out(RecordingSet& set, const std::vector<std::string>& ids) {
+  for (Recording& one : set.recordings) one.split = Split::train;
+  for (const std::string& id : ids) {
+    const auto found = std::ranges::find(set.recordings, id, &Recording::id);
+    if (found == set.recordings.end()) {
+      return failure(ErrorCode::bad_data, fmt::format("there is no recording '{}' to hold out", id),
+                     "flexspline validate DATASET lists them");
+    }
+    found->split = Split::holdout;
+  }
+  return {};
+}
+
+/// Errors of the simulated angle over one recording, rad.
+struct AngleError {
+  double rms = kNotComputed;
+  double mean = kNotComputed;  ///< of the magnitude
+};
+
+AngleError compared(const std::vector<double>& simulated, const std::vector<double>& measured) {
+  double squares = 0.0;
+  double magnitudes = 0.0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    squares += std::pow(simulated[i] - measured[i], 2);
+    magnitudes += std::abs(simulated[i] - measured[i]);
+  }
+  const auto count = static_cast<double>(measured.size());
+  return {std::sqrt(squares / count), magnitudes / count};
+}
+
+ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+/// The estimate with errors of every recording; one that cannot be simulated has null and says why.
+ordered_json judged(const estimators::ServoFit& fit, const RecordingSet& set) {
+  estimators::ServoFit known = fit;
+  ordered_json errors[2] = {
+      {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}},
+      {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}}};
+  for (const Recording& one : set.recordings) {
+    const auto angle = estimators::simulate_servo(fit.drive, one);
+    if (!angle) known.estimate.notes.push_back(angle.error().message());
+    const AngleError error =
+        angle ? compared(*angle, *one.find(Quantity::load_angle)) : AngleError{};
+    const char* role = one.split == Split::holdout ? "holdout" : "train";
+    errors[0][role][one.id] = number_or_null(error.rms);
+    errors[1][role][one.id] = number_or_null(error.mean);
+  }
+  ordered_json estimate = data::to_json(known.estimate, {"rad", "Nm"});
+  estimate["rmse"] = errors[0];
+  estimate["mean_absolute_error"] = errors[1];
+  estimate["error_unit"] = "rad";
+  return estimate;
+}
+
+std::string summary_of(const ordered_json& estimate) {
+  std::string text = fmt::format(
+      "servo, angle simulated: {}, {} parameters, {}", estimate.value("termination", ""),
+      estimate.at("parameters").size(), estimate.at("identifiability").value("says", ""));
+  for (const char* role : {"train", "holdout"}) {
+    for (const auto& [id, value] : estimate.at("rmse").at(role).items()) {
+      const auto& mean = estimate.at("mean_absolute_error").at(role).at(id);
+      text += value.is_null()
+                  ? fmt::format("\n  {:<8} {:<28} not computed", role, id)
+                  : fmt::format("\n  {:<8} {:<28} rmse {:.4g} rad, mean absolute error {:.4g} rad",
+                                role, id, value.get<double>(), mean.get<double>());
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<ExitCode> fit_servo_set(RecordingSet set, const estimators::GivenModel& model,
+                               const std::optional<std::vector<std::string>>& held_out,
+                               const std::filesystem::path& folder, Console& console) {
+  if (held_out) {
+    if (auto held = hold_out(set, *held_out); !held) return tl::unexpected(held.error());
+  }
+  const auto fit = estimators::fit_servo(set, model);
+  if (!fit) return tl::unexpected(fit.error());
+  const ordered_json estimate = judged(*fit, set);
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (auto written = data::write_model(folder / "model.toml", fit->estimate.model); !written) {
+    return tl::unexpected(written.error());
+  }
+  if (auto written = data::write_artefact(folder / "estimate.json", estimate); !written) {
+    return tl::unexpected(written.error());
+  }
+  console.result(console.json ? estimate.dump(2) : summary_of(estimate));
+  return kDone;
+}
+
+}  // namespace flexspline::app

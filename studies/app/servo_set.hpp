@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "command.hpp"
+#include "flexspline/core/recording.hpp"
+#include "flexspline/estimators/method.hpp"
+
+namespace flexspline::app {
+
+/// fit --model on a servo's recordings, which show no torque across the transmission: the angle is
+/// simulated instead. held_out names recordings; absent, those that the set marks.
+/// Writes DIR/estimate.json and DIR/model.toml.
+Result<ExitCode> fit_servo_set(RecordingSet set, const estimators::GivenModel& model,
+                               const std::optional<std::vector<std::string>>& held_out,
+                               const std::filesystem::path& folder, Console& console);
+
+}  // namespace flexspline::app
