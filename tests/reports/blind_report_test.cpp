@@ -231,5 +231,44 @@ TEST(TrialReport, SharesOfASizeAreThoseOfItsCases) {
   EXPECT_EQ(series[1]["y"][0], 75.0);
 }
 
+TEST(VerificationReport, SaysWhatDiffersAndWhatMayExplainIt) {
+  const StudyFolder folder("verification_fixture");
+  const auto page = write_report(folder.path());
+  ASSERT_TRUE(page) << page.error().message();
+  EXPECT_EQ(*page, folder.path() / "index.html");
+  EXPECT_EQ(section_ids(folder),
+            (std::vector<std::string>{"verdict", "explained-section", "checked-section"}));
+  EXPECT_TRUE(contains(folder.text("index.html"), "It does not hold. Of 5 artefacts"));
+  EXPECT_TRUE(contains(folder.text("tables/changed.csv"), "seed,seeds,[1],[2]"));
+  const std::string differences = folder.text("tables/differences.csv");
+  EXPECT_TRUE(contains(differences, "estimate/parameters/a1/value,parameter,14.1,14.2,90"));
+  EXPECT_TRUE(contains(differences, "cases/gone.json,\"only the other run has it"));
+  EXPECT_FALSE(contains(differences, "estimate/cost")) << "rounding is no difference to explain";
+  EXPECT_FALSE(contains(markup_of(folder.text("index.html")), "<img"));
+}
+
+TEST(VerificationReport, IsQuietWhereEveryBitAgrees) {
+  const StudyFolder folder("verification_fixture");
+  change(folder, "verification.json", [](ordered_json& artefact) {
+    artefact["holds"] = true;
+    artefact["changed"] = ordered_json::array();
+    artefact["artefacts"] = {artefact["artefacts"][0]};
+  });
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_TRUE(contains(folder.text("index.html"), "<p class=\"verdict\">Nothing is.</p>"));
+  EXPECT_TRUE(figure_of(folder, "differences").is_null());
+}
+
+TEST(DiagnosisReport, OrdersWhatIsLeftByEveryCoordinate) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json figure = figure_of(folder, "ordered-residuals");
+  ASSERT_FALSE(figure.is_null());
+  std::vector<std::string> titles;
+  for (const auto& panel : figure["frames"][0]["panels"]) titles.push_back(panel["title"]);
+  EXPECT_EQ(titles, (std::vector<std::string>{"by time", "by torsion", "by velocity", "by load",
+                                              "by order of the motor"}));
+}
+
 }  // namespace
 }  // namespace flexspline::reports

@@ -1,4 +1,4 @@
-// Makes the fixtures of the diagnosis and trial pages: invented numbers, nulls, and names that try
+// Makes the fixtures of the diagnosis, trial and verification pages: invented numbers, nulls, and names that try
 // to run in the page. Run `node generate_blind.mjs` after a change of the format.
 import { createHash } from "node:crypto";
 import { writeFileSync } from "node:fs";
@@ -14,7 +14,7 @@ const write = (path, artefact) => writeFileSync(join(here, path), JSON.stringify
 const kPoints = 240;
 /** Two cycles of a sine: a spring, drag, and a friction that remembers its last reversal. */
 function seriesOf(recording, role, amplitude, frequency) {
-  const columns = { time: [], motion: [], rate: [], measured: [], before: [], after: [] };
+  const columns = { time: [], motion: [], rate: [], measured: [], before: [], after: [], motor_angle: [] };
   let memory = 0;
   for (let i = 0; i < kPoints; i++) {
     const phase = (4 * Math.PI * i) / (kPoints - 1);
@@ -30,6 +30,7 @@ function seriesOf(recording, role, amplitude, frequency) {
     columns.measured.push(modelled + 1.1 * memory + noise);
     columns.before.push(modelled + 1.1 * Math.tanh(30 * rate));
     columns.after.push(modelled + 1.08 * memory);
+    columns.motor_angle.push((1440 * i) / (kPoints - 1));
   }
   return { recording, role, equation: "torsion", ...Object.fromEntries(Object.entries(columns).map(([key, values]) => [key, values.map(round)])) };
 }
@@ -101,4 +102,20 @@ write("trial_fixture/trial.json", {
   cases: [trialCase("case-0000", "locked", [], [], "adequate", [], true), trialCase("case-0001", "free", ["backlash"], [0.05], "explained", ["backlash"], true),
     trialCase("case-0002", "locked", ["viscoelastic_creep"], [0.03], "explained", ["presliding_hysteresis"], false),
     trialCase("case-0003", "free", ["backlash", "gravity_load"], [0.05, 0.08], "failed", [], false, kHostile)],
+});
+
+const difference = (where, quantity, before, after, over_tolerance, level) => ({ where, quantity, before, after, over_tolerance, level });
+const check = (artefact, level, numbers, unequal, over_tolerance, worst = [], reason = "") => ({ artefact, level, numbers, unequal, over_tolerance, reason, worst });
+write("verification_fixture/verification.json", {
+  schema: "flexspline-verification/1", folder: `out/${kHostile}`, level: "differs", holds: false,
+  says: "Of 5 artefacts, 1 the same to the last bit, 1 the same within tolerance, 1 in statistical agreement, 1 different, 1 missing. What changed since, and may explain it: seed, library.",
+  changed: [{ kind: "seed", name: "seeds", before: "[1]", after: "[2]" }, { kind: "library", name: "versions/Ceres", before: "2.1.0", after: kHostile }],
+  tolerances: [{ quantity: "series", relative: 1e-6, of_std: 0, statistical: 0.05, says: "samples of a curve" }, { quantity: "parameter", relative: 1e-6, of_std: 1e-3, statistical: 1e-3, says: "estimates" }],
+  artefacts: [
+    check("inputs/h_one.json", "bitwise", 4000, 0, 0),
+    check("cases/h_one--paper--r0.json", "numeric", 5000, 12, 0.2, [difference("estimate/cost", "error", "1.5", "1.5000001", 0.2, "numeric")]),
+    check("cases/h_one--trajectory--r0.json", "statistical", 5000, 700, 90, [difference("estimate/parameters/a1/value", "parameter", "14.1", "14.2", 90, "statistical")]),
+    check(`cases/${kHostile}.json`, "differs", 5000, 900, 4000, [difference(`recordings/${kHostile}/rmse`, "error", "0.1", kHostile, 4000, "differs")]),
+    check("cases/gone.json", "missing", 0, 0, null, [], "only the other run has it, not the folder to verify"),
+  ],
 });

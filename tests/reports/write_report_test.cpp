@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <set>
 #include <vector>
 
@@ -135,6 +136,63 @@ TEST(WriteReport, NamesArtefactsThatCannotBeRead) {
   const std::string html = study.text("report/index.html");
   EXPECT_TRUE(contains(html, "cases/h_one--paper--r0.json: its checksum does not hold"));
   EXPECT_TRUE(contains(html, "cases/cut.json: "));
+}
+
+std::set<std::string> figure_ids(const StudyFolder& study) {
+  std::set<std::string> ids;
+  const auto report = nlohmann::json::parse(study.text("report/report.json"));
+  for (const auto& section : report.at("sections")) {
+    for (const auto& block : section.at("blocks")) {
+      if (block.contains("figure")) ids.insert(block["figure"]["id"]);
+    }
+  }
+  return ids;
+}
+
+TEST(WriteReport, DrawsEveryFigureAsAFileOfTheSameBytes) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  const auto ids = figure_ids(study);
+  EXPECT_GE(ids.size(), 10U);
+  std::vector<std::string> pictures;
+  for (const std::string& id : ids) {
+    pictures.push_back(study.text("report/figures/" + id + ".svg"));
+    EXPECT_TRUE(pictures.back().starts_with("<svg xmlns=")) << id;
+    EXPECT_TRUE(contains(pictures.back(), "<path")) << id;
+  }
+  ASSERT_TRUE(write_report(study.path()));
+  std::size_t at = 0;
+  for (const std::string& id : ids) {
+    EXPECT_TRUE(study.text("report/figures/" + id + ".svg") == pictures[at++]) << id;
+  }
+}
+
+/// PATH with nothing on it, until the end of the test.
+class WithoutPrograms {
+ public:
+  WithoutPrograms() : path_(std::getenv("PATH")) { setenv("PATH", "/nowhere", 1); }
+  ~WithoutPrograms() { setenv("PATH", path_.c_str(), 1); }
+
+ private:
+  std::string path_;
+};
+
+TEST(WriteReport, SaysThatNodeIsAbsentAndDrawsThePageAllTheSame) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  const std::string page = study.text("report/index.html");
+  const WithoutPrograms none;
+  ASSERT_TRUE(write_report(study.path()));
+  EXPECT_TRUE(study.text("report/index.html") == page);
+  EXPECT_TRUE(contains(study.text("report/figures/not-drawn.txt"), "apt-get install nodejs"));
+  EXPECT_FALSE(fs::exists(study.path() / "report" / "figures" / "own-loop.svg"));
+}
+
+TEST(WriteReport, SetsThePaperBesideOurs) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  EXPECT_TRUE(contains(study.text("report/index.html"), "What is wrong: "));
+  EXPECT_TRUE(contains(study.text("tables/slips.csv"), "where,printed,\"meant, or true\""));
 }
 
 TEST(WriteReport, RefusesAFolderWithoutArtefacts) {

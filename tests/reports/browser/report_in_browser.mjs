@@ -1,18 +1,22 @@
 // Opens the reports of the fixtures in headless Chromium, at the width of a desk and of a phone, and
 // checks what a person would notice. Pictures of the pages are left in the working folder.
 import { execFileSync } from "node:child_process";
-import { cpSync, existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const kSkipped = 77;
-const [drawReport, fixtures, packages, work] = process.argv.slice(2);
+const [drawReport, fixtures, packages, work, program, study] = process.argv.slice(2);
 const kReports = [
-  { name: "study", fixture: "fixture", page: "report/index.html", figures: 8 },
-  { name: "diagnosis", fixture: "diagnosis_fixture", page: "index.html", figures: 4 },
+  { name: "paper", study, page: "report/index.html", figures: 18 },
+  { name: "study", fixture: "fixture", page: "report/index.html", figures: 12 },
+  { name: "diagnosis", fixture: "diagnosis_fixture", page: "index.html", figures: 6 },
   { name: "trial", fixture: "trial_fixture", page: "report/index.html", figures: 3 },
+  { name: "verification", fixture: "verification_fixture", page: "index.html", figures: 2 },
 ];
+const kMostBytes = 3_000_000;
+const kInteractiveWithin = 1000;
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 if (!chromium) {
   console.log("skipped: no chromium on this machine (Debian: apt-get install chromium)");
@@ -21,7 +25,9 @@ if (!chromium) {
 const { chromium: driver } = createRequire(join(packages, "package.json"))("playwright-core");
 
 const failures = [];
+let checks = 0;
 const check = (holds, what) => {
+  checks++;
   if (!holds) failures.push(what);
 };
 
@@ -57,6 +63,62 @@ async function checkHover(page, figure, id, at) {
 
 const pictureOf = (figure) => figure.locator(".chart svg").first().evaluate((svg) => svg.innerHTML);
 
+const pressed = (page, name) => page.locator(".legend button", { hasText: name }).evaluateAll((buttons, exactly) =>
+  buttons.filter((one) => one.textContent === exactly).map((one) => one.getAttribute("aria-pressed")), name);
+
+/** What one legend hides is hidden in every figure of the page, by keyboard too. */
+async function checkLegend(page, figure, id, at) {
+  const entry = figure.locator(".legend button").last();
+  if ((await entry.count()) === 0) return;
+  const name = await entry.textContent();
+  const before = await pictureOf(figure);
+  await entry.focus();
+  await page.keyboard.press("Space");
+  const states = await pressed(page, name);
+  check(states.length > 0 && states.every((one) => one === "false"), `${at}: hiding ${name} in ${id} does not reach every figure (${states})`);
+  check((await figure.locator(".chart").count()) > 1 || before !== (await pictureOf(figure)), `${at}: hiding ${name} changes nothing in ${id}`);
+  await page.keyboard.press("Space");
+  check((await pressed(page, name)).every((one) => one === "true"), `${at}: ${name} does not come back in ${id}`);
+}
+
+/** Plus, an arrow and zero on a chart that has the focus. */
+async function checkKeys(page, figure, id, at) {
+  const chart = figure.locator(".chart[tabindex]").first();
+  if ((await chart.count()) === 0) return;
+  const whole = await pictureOf(figure);
+  await chart.focus();
+  await page.keyboard.press("+");
+  const zoomed = await pictureOf(figure);
+  check(zoomed !== whole, `${at}: plus does not zoom ${id}`);
+  await page.keyboard.press("ArrowRight");
+  check((await pictureOf(figure)) !== zoomed, `${at}: an arrow does not move ${id}`);
+  await page.keyboard.press("0");
+}
+
+/** Text that is read stands out from what is behind it: 4.5 to 1, WCAG AA. */
+const lowContrast = () => {
+  const rgb = (text) => text.match(/[\d.]+/g).map(Number);
+  const light = ([r, g, b]) => {
+    const [x, y, z] = [r, g, b].map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * x + 0.7152 * y + 0.0722 * z;
+  };
+  const behind = (element) => {
+    for (let one = element; one; one = one.parentElement) {
+      const colour = rgb(getComputedStyle(one).backgroundColor);
+      if (colour.length < 4 || colour[3] > 0) return colour;
+    }
+    return [255, 255, 255];
+  };
+  const low = new Set();
+  for (const element of document.querySelectorAll("main *:not(.chart *)")) {
+    const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+    if (!own || element.closest(".scale, option, svg") || !element.getClientRects().length) continue;
+    const [a, b] = [light(rgb(getComputedStyle(element).color)), light(behind(element))].sort((x, y) => y - x);
+    if ((a + 0.05) / (b + 0.05) < 4.5) low.add(`${element.tagName} ${element.className}`);
+  }
+  return [...low];
+};
+
 async function checkPickers(figure, id, at) {
   for (const select of await figure.locator("select").all()) {
     const values = await select.locator("option").evaluateAll((options) => options.map((one) => one.value));
@@ -75,10 +137,42 @@ async function checkLayout(page, at) {
   const unnamed = await page.evaluate(() =>
     [...document.querySelectorAll(".panels")].filter((one) => !one.getAttribute("aria-label")).length);
   check(unnamed === 0, `${at}: ${unnamed} figures without an alternative text`);
+  const low = await page.evaluate(lowContrast);
+  check(low.length === 0, `${at}: too little contrast: ${low}`);
+  const uncopied = await page.evaluate(() => [...document.querySelectorAll("pre")].filter((one) => !one.parentElement.querySelector("button.copy")).length);
+  check(uncopied === 0, `${at}: ${uncopied} listings cannot be copied`);
   check(await page.evaluate(() => window.hacked === undefined && !document.querySelector("main img")), `${at}: a hostile name ran`);
 }
 
-async function visit(browser, report, url, width, scheme) {
+/** Every figure as a file too, each a drawing that a browser can read. */
+async function checkFiles(page, folder, at) {
+  const pictures = readdirSync(join(folder, "report", "figures")).filter((one) => one.endsWith(".svg"));
+  const ids = await page.locator("figure[data-figure]").evaluateAll((all) => all.map((one) => one.dataset.figure));
+  check(pictures.length === ids.length, `${at}: ${pictures.length} files for ${ids.length} figures`);
+  for (const name of pictures) {
+    const text = readFileSync(join(folder, "report", "figures", name), "utf8");
+    const broken = await page.evaluate((svg) => new DOMParser().parseFromString(svg, "image/svg+xml").querySelector("parsererror") !== null, text);
+    check(!broken, `${at}: ${name} is not XML`);
+  }
+}
+
+/** The quickest of three: a busy machine must not look like a slow page. */
+async function checkStart(browser, url, at) {
+  const times = [];
+  for (let i = 0; i < 3; i++) {
+    const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+    await page.goto(url);
+    times.push(await page.evaluate(() => performance.getEntriesByType("navigation")[0].domInteractive));
+    await page.close();
+  }
+  const quickest = Math.min(...times);
+  const size = statSync(fileURLToPath(url)).size;
+  console.log(`${at}: ${size} bytes, interactive after ${Math.round(quickest)} ms`);
+  check(quickest <= kInteractiveWithin, `${at}: interactive only after ${Math.round(quickest)} ms`);
+  check(size <= kMostBytes, `${at}: ${size} bytes`);
+}
+
+async function visit(browser, report, url, width, scheme, folder) {
   const at = `${report.name}, ${width} px, ${scheme}`;
   const page = await browser.newPage({ viewport: { width, height: 900 }, colorScheme: scheme });
   page.on("console", (message) => check(!["error", "warning"].includes(message.type()), `${at}: console: ${message.text()}`));
@@ -86,19 +180,21 @@ async function visit(browser, report, url, width, scheme) {
   page.on("request", (request) => check(request.url() === url || /^(data|blob):/.test(request.url()), `${at}: request for ${request.url()}`));
   await page.goto(url);
   check((await page.title()).length > 0, `${at}: the page has no title`);
-  const interactive = await page.evaluate(() => performance.getEntriesByType("navigation")[0].domInteractive);
-  console.log(`${at}: interactive after ${Math.round(interactive)} ms`);
+  await page.locator("details").evaluateAll((all) => all.forEach((one) => (one.open = true)));
   const figures = await page.locator("figure[data-figure]").all();
   check(figures.length >= report.figures, `${at}: only ${figures.length} figures`);
   for (const figure of figures) {
     const id = await checkFigure(page, figure, at);
     await checkHover(page, figure, id, at);
     await checkPickers(figure, id, at);
+    await checkLegend(page, figure, id, at);
+    await checkKeys(page, figure, id, at);
   }
   await checkLayout(page, at);
   const misfit = await page.evaluate(() =>
     [...document.querySelectorAll(".chart")].filter((one) => one.querySelector("svg").getAttribute("width") !== String(one.clientWidth)).length);
   check(misfit === 0, `${at}: ${misfit} charts are not as wide as their place`);
+  if (folder) await checkFiles(page, folder, at);
   await page.evaluate(() => scrollTo(0, 0));
   await page.mouse.move(1, 1);
   await page.screenshot({ path: join(work, `${report.name}-${width}-${scheme}.png`), fullPage: true });
@@ -115,14 +211,19 @@ mkdirSync(work, { recursive: true });
 const browser = await driver.launch({ executablePath: chromium, args: ["--no-sandbox"] });
 for (const report of kReports) {
   const folder = join(work, report.name);
-  cpSync(join(fixtures, report.fixture), folder, { recursive: true });
-  execFileSync(drawReport, [folder]);
+  if (report.study) {
+    execFileSync(program, ["run", report.study, "--out", folder, "--quiet"]);
+  } else {
+    cpSync(join(fixtures, report.fixture), folder, { recursive: true });
+    execFileSync(drawReport, [folder]);
+  }
   const url = pathToFileURL(join(folder, report.page)).href;
-  await visit(browser, report, url, 1440, "light");
+  await checkStart(browser, url, report.name);
+  await visit(browser, report, url, 1440, "light", folder);
   await visit(browser, report, url, 1440, "dark");
   await visit(browser, report, url, 390, "light");
 }
 await browser.close();
 for (const failure of failures) console.log(failure);
-console.log(failures.length === 0 ? "the reports hold" : `${failures.length} failures`);
+console.log(failures.length === 0 ? `the reports hold: ${checks} checks` : `${failures.length} of ${checks} checks fail`);
 process.exit(failures.length === 0 ? 0 : 1);
