@@ -20,6 +20,24 @@ std::vector<std::size_t> rows_of(const TorsionRecord& record, std::size_t most) 
   return rows;
 }
 
+template <class T>
+void thin(std::vector<T>& series, std::size_t stride) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < series.size(); i += stride) series[kept++] = series[i];
+  series.resize(kept);
+}
+
+/// The reconstruction uses every sample, the simulation every stride-th.
+void thin(GivenRecord& one, std::size_t most) {
+  const std::size_t stride = (one.record.time.size() + most - 1) / most;
+  if (stride < 2) return;
+  for (auto* series : {&one.record.time, &one.record.motion, &one.record.effort, &one.motion.time,
+                       &one.motion.position, &one.motion.velocity, &one.motion.acceleration}) {
+    thin(*series, stride);
+  }
+  thin(one.record.valid, stride);
+}
+
 GivenParameter zero_of(const GivenRecord& one) {
   const auto [low, high] = std::ranges::minmax(one.motion.position);
   return {.name = "zero[" + one.record.id + "]",
@@ -32,12 +50,15 @@ GivenParameter zero_of(const GivenRecord& one) {
 }  // namespace
 
 Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
-                                               std::size_t most_rows) {
+                                               std::size_t most_rows, std::size_t most_path) {
   std::vector<GivenRecord> list;
   for (const TorsionRecord& record : records) {
     auto smooth = reconstruct(record);
     if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + record.id));
-    list.push_back({record, std::move(smooth->motion), rows_of(record, most_rows)});
+    GivenRecord one{record, std::move(smooth->motion), {}};
+    thin(one, most_path);
+    one.rows = rows_of(one.record, most_rows);
+    list.push_back(std::move(one));
   }
   return list;
 }

@@ -9,14 +9,15 @@ namespace flexspline::estimators {
 /// A recording along which a given model's torque is simulated.
 struct GivenRecord {
   TorsionRecord record;
-  Motion motion;                  ///< reconstructed, on all samples: memories need the whole path
+  Motion motion;                  ///< reconstructed, with what has no residual: memories need it
   std::vector<std::size_t> rows;  ///< samples that get a residual
 };
 
-/// At most most_rows of each record get a residual, evenly spread; invalid samples none.
+/// Of each record at most most_path samples are simulated, evenly spread, and at most most_rows of
+/// those get a residual; invalid samples none.
 /// Errors: numerics, where a motion cannot be reconstructed.
 Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
-                                               std::size_t most_rows);
+                                               std::size_t most_rows, std::size_t most_path);
 
 /// Measured less simulated torque, Nm (N), of a given model: a block a recording. Unknowns: the
 /// parameters that are not held, then (each_zero) where every recording's motion has its zero. The

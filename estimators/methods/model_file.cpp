@@ -201,7 +201,8 @@ Result<Estimate> fit(const FitProblem& problem) {
   const auto parameters = given_parameters(*problem.model);
   if (!parameters) return tl::unexpected(parameters.error());
   const auto records =
-      given_records(problem.records, static_cast<std::size_t>(number(problem, method, "samples")));
+      given_records(problem.records, static_cast<std::size_t>(number(problem, method, "samples")),
+                    static_cast<std::size_t>(number(problem, method, "path")));
   if (!records) return tl::unexpected(records.error());
   const bool each_zero = word(problem, method, "zero") == "each";
   GivenResiduals residuals(problem.model->model, *parameters, *records, each_zero);
@@ -253,7 +254,13 @@ MethodRow describe_model_file() {
                        .meaning = "most residuals of one recording; longer ones are thinned evenly",
                        .value = 3000,
                        .lower = 100,
-                       .upper = 1e6}},
+                       .upper = 1e6},
+                      {.name = "path",
+                       .meaning = "most samples of one recording that are simulated; fewer are "
+                                  "faster where effects follow the torque",
+                       .value = 20000,
+                       .lower = 100,
+                       .upper = 1e7}},
           .fit = fit,
           .takes_model = true};
 }

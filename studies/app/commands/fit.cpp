@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -38,6 +40,36 @@ ordered_json estimate_of(const ordered_json& artefact) {
   return estimate;
 }
 
+double samples_of(const Recording& recording) {
+  const auto* valid = recording.find(Quantity::valid);
+  if (valid == nullptr) return static_cast<double>(recording.time.size());
+  return static_cast<double>(std::ranges::count_if(*valid, [](double v) { return v >= 0.5; }));
+}
+
+/// Root mean square over all samples that count, train and hold-out.
+ordered_json pooled_of(const ordered_json& estimate, const RecordingSet& set) {
+  ordered_json pooled = ordered_json::object();
+  for (const char* role : {"train", "holdout"}) {
+    double squares = 0.0;
+    double count = 0.0;
+    for (const auto& [id, value] : estimate.at("rmse").at(role).items()) {
+      const auto found = std::ranges::find(set.recordings, id, &Recording::id);
+      if (found == set.recordings.end() || value.is_null()) continue;
+      squares += samples_of(*found) * std::pow(value.get<double>(), 2);
+      count += samples_of(*found);
+    }
+    pooled[role] = count > 0.0 ? ordered_json(std::sqrt(squares / count)) : ordered_json(nullptr);
+  }
+  return pooled;
+}
+
+std::string pooled_line(const ordered_json& estimate, const char* role) {
+  if (!estimate.contains("pooled_rmse")) return {};
+  const auto& pooled = estimate.at("pooled_rmse").at(role);
+  if (pooled.is_null()) return {};
+  return fmt::format("\n  {:<8} {:<28} rmse {:.4g}", role, "all samples", pooled.get<double>());
+}
+
 std::string summary_of(const ordered_json& estimate) {
   std::string text =
       fmt::format("{}: {}, {} parameters, {}", estimate.value("estimator", ""),
@@ -49,6 +81,7 @@ std::string summary_of(const ordered_json& estimate) {
           "\n  {:<8} {:<28} rmse {}", role, id,
           value.is_null() ? "not computed" : fmt::format("{:.4g}", value.get<double>()));
     }
+    text += pooled_line(estimate, role);
   }
   return text;
 }
@@ -112,6 +145,11 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
         data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
     if (!artefact) return tl::unexpected(artefact.error());
     estimate = estimate_of(*artefact);
+    if (study->estimators.front().model) {
+      const auto set = data::load_dataset(arguments.text("dataset"));
+      if (!set) return tl::unexpected(set.error());
+      estimate["pooled_rmse"] = pooled_of(estimate, *set);
+    }
     return write_estimate(folder, estimate);
   };
   std::filesystem::path report;
