@@ -13,6 +13,7 @@ using Eigen::Index;
 constexpr int kSteps = 8;
 constexpr int kResamples = 400;
 constexpr Index kBlocksOfRecording = 8;
+constexpr double kReach = 1.05;  // of what was fitted: beyond it a law is extrapolated
 
 bool marked(const Frame& frame) {
   return std::ranges::any_of(frame.segments,
@@ -46,8 +47,26 @@ std::vector<std::size_t> unmarked_choice(const Frame& frame) {
   for (std::size_t k = step / 2; k < order.size() && chosen.size() < wanted; k += step) {
     chosen.push_back(order[k].second);
   }
-  if (chosen.empty() && frame.segments.size() > 1) chosen.push_back(frame.segments.size() - 1);
   return chosen;
+}
+
+// Where every recording reaches further than the others in something: the end of each.
+ArrayXd ends(const Frame& frame) {
+  ArrayXd rows = ArrayXd::Zero(frame.rows());
+  for (const Segment& s : frame.segments) {
+    const Index count = s.count / 3;
+    rows.segment(s.first + s.count - count, count).setOnes();
+  }
+  return rows;
+}
+
+bool within_reach(const Frame& frame, const ArrayXd& held) {
+  const auto reached = [&](const ArrayXd& x) {
+    const ArrayXd size = x.abs() * frame.usable;
+    return (size * held).maxCoeff() <= kReach * (size * (1.0 - held)).maxCoeff();
+  };
+  return reached(frame.torsion) && reached(frame.torsion_rate) && reached(frame.motor_speed) &&
+         reached(frame.torque);
 }
 
 void mask(const Frame& frame, ArrayXd& rows, std::size_t segment) {
@@ -160,8 +179,11 @@ ArrayXd held_out(const Frame& frame) {
     }
     return rows;
   }
-  for (std::size_t i : unmarked_choice(frame)) mask(frame, rows, i);
-  return rows;
+  const auto chosen = unmarked_choice(frame);
+  for (std::size_t i : chosen) mask(frame, rows, i);
+  if (!chosen.empty()) return rows;
+  const ArrayXd last = ends(frame);
+  return within_reach(frame, last) ? last : rows;
 }
 
 Equation equation_to_prove(const Frame& frame, const Selection& selection) {

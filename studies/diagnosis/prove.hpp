@@ -7,7 +7,9 @@ namespace flexspline::studies {
 
 /// Which rows are held out: whole recordings, those that the data set marks; without marks a third
 /// of the recordings, spread over the order of their fastest motion, none that reaches furthest in
-/// torsion, rate, speed or torque: no law is judged where it has not been fitted.
+/// torsion, rate, speed or torque: no law is judged where it has not been fitted. Where every
+/// recording reaches furthest in something, the last third of each; none where that would reach
+/// further than the rest.
 Eigen::ArrayXd held_out(const Frame& frame);
 
 /// The equation whose residual is the errors' unit: the transmitted torque where a cause acts on
