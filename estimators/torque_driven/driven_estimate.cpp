@@ -96,7 +96,7 @@ Identifiability identifiability_of(const std::vector<ParameterEstimate>& paramet
 double highest_speed(const DrivenProblem& problem) {
   double speed = 0.0;
   for (const auto& one : problem.series) {
-    const std::size_t span = reading_span(one);
+    const std::size_t span = one.reading_span;
     for (std::size_t i = span; i < one.time.size(); i += span) {
       speed = std::max(speed, std::abs(one.motion[i] - one.motion[i - span]) /
                                   (one.time[i] - one.time[i - span]));

@@ -45,9 +45,10 @@ double order_of(LaneFormula formula) { return formula == LaneFormula::radau ? 5.
 IntegrationPlan::IntegrationPlan(const DrivenProblem& problem, std::span<const double> p,
                                  InstructionSet set, Crew& crew)
     : problem_(problem), instructions_(set), crew_(crew) {
-  for (const DrivenSeries& one : problem.series) {
-    plans_.push_back(plan_for(stiffness_along(problem, one, p)));
-  }
+  plans_.resize(problem.series.size());
+  crew_.run(plans_.size(), [&](std::size_t s) {
+    plans_[s] = plan_for(stiffness_along(problem, problem.series[s], p));
+  });
   pack();
 }
 

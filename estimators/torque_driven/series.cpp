@@ -1,8 +1,9 @@
 #include "torque_driven/series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,21 +12,39 @@ namespace {
 
 constexpr double kEven = 1e-9;  // relative jitter up to which sampling counts as even
 
-double spread_valid(const TorsionRecord& record, std::span<const double> values) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+bool is_valid(const TorsionRecord& record, std::size_t i) {
+  return i >= record.valid.size() || record.valid[i];
+}
+
+// Whether two valid values differ.
+bool varies(const TorsionRecord& record, std::span<const double> values) {
+  std::optional<double> first;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i < record.valid.size() && !record.valid[i]) continue;
-    low = std::min(low, values[i]);
-    high = std::max(high, values[i]);
+    if (!is_valid(record, i) || std::isnan(values[i])) continue;
+    if (!first) first = values[i];
+    if (values[i] > *first || values[i] < *first) return true;
   }
-  return high > low ? high - low : 0.0;
+  return false;
+}
+
+// Four at a time: a comparison does not wait for the one before.
+double largest(std::span<const double> values) {
+  std::array<double, 4> most{};
+  std::size_t i = 0;
+  for (; i + most.size() <= values.size(); i += most.size()) {
+    for (std::size_t k = 0; k < most.size(); ++k) {
+      most[k] = std::max(most[k], std::abs(values[i + k]));
+    }
+  }
+  for (; i < values.size(); ++i) most[0] = std::max(most[0], std::abs(values[i]));
+  return std::ranges::max(most);
 }
 
 double largest_valid(const TorsionRecord& record, std::span<const double> values) {
+  if (std::ranges::find(record.valid, false) == record.valid.end()) return largest(values);
   double result = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i >= record.valid.size() || record.valid[i]) result = std::max(result, std::abs(values[i]));
+    if (is_valid(record, i)) result = std::max(result, std::abs(values[i]));
   }
   return result;
 }
@@ -36,11 +55,10 @@ Result<void> check(const TorsionRecord& record) {
                    fmt::format("recording {} has {} samples", record.id, record.time.size()),
                    "give 16 or more");
   }
-  if (!(spread_valid(record, record.motion) > 0.0) ||
-      !(spread_valid(record, record.effort) > 0.0)) {
+  const bool moves = varies(record, record.motion);
+  if (!moves || !varies(record, record.effort)) {
     return failure(ErrorCode::bad_data,
-                   fmt::format("recording {} has no {}", record.id,
-                               spread_valid(record, record.motion) > 0.0 ? "torque" : "motion"),
+                   fmt::format("recording {} has no {}", record.id, moves ? "torque" : "motion"),
                    "leave it out");
   }
   return {};
@@ -73,8 +91,27 @@ double even_step(std::span<const double> time) {
   return mean;
 }
 
-DrivenSeries series_of(const TorsionRecord& record, double motion_scale, double torque_scale,
-                       InitialMotion initial) {
+std::size_t reading_span_of(const DrivenSeries& series) {
+  constexpr double kChange = 0.1;
+  const std::size_t longest = series.intervals() / 4;
+  std::size_t span = 2;
+  for (; 2 * span <= longest; span *= 2) {
+    double moved = 0.0;
+    double peak = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = span; i < series.motion.size(); i += span, ++count) {
+      if (!(series.weight[i] > 0.0 && series.weight[i - span] > 0.0)) continue;
+      moved += std::abs(series.motion[i] - series.motion[i - span]);
+      peak = std::max(peak, std::abs(series.motion[i]));
+    }
+    if (moved >= kChange * peak * static_cast<double>(count)) break;
+  }
+  return span;
+}
+
+// largest_motion: of the valid samples.
+DrivenSeries series_of(const TorsionRecord& record, double largest_motion, double motion_scale,
+                       double torque_scale, InitialMotion initial) {
   DrivenSeries one;
   one.id = record.id;
   one.time = record.time;
@@ -88,14 +125,14 @@ DrivenSeries series_of(const TorsionRecord& record, double motion_scale, double 
   one.torque_slope = spline_slopes(one.time, one.torque);
   one.step = even_step(one.time);
   one.initial = initial == InitialMotion::rest ? 0.0 : one.motion.front();
-  const double peak = record.amplitude.value_or(0.0) > 0.0 ? *record.amplitude
-                                                           : largest_valid(record, record.motion);
+  const double peak = record.amplitude.value_or(0.0) > 0.0 ? *record.amplitude : largest_motion;
   one.weight.assign(n, motion_scale / peak);
   for (std::size_t i = 0; i < record.valid.size(); ++i) {
     if (record.valid[i]) continue;
     one.weight[i] = 0.0;
     one.all_valid = false;
   }
+  one.reading_span = reading_span_of(one);
   return one;
 }
 
@@ -118,14 +155,16 @@ Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, 
     return failure(ErrorCode::bad_data, "there is no recording to train on",
                    "mark one with split = \"train\"");
   }
+  std::vector<double> motions;
   for (const auto& record : records) {
     if (auto checked = check(record); !checked) return tl::unexpected(checked.error());
-    problem.motion_scale = std::max(problem.motion_scale, largest_valid(record, record.motion));
+    motions.push_back(largest_valid(record, record.motion));
+    problem.motion_scale = std::max(problem.motion_scale, motions.back());
     problem.torque_scale = std::max(problem.torque_scale, largest_valid(record, record.effort));
   }
-  for (const auto& record : records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
     problem.series.push_back(
-        series_of(record, problem.motion_scale, problem.torque_scale, initial));
+        series_of(records[i], motions[i], problem.motion_scale, problem.torque_scale, initial));
   }
   if (problem.residuals() <= problem.size()) {
     return failure(
@@ -136,24 +175,6 @@ Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, 
   return problem;
 }
 
-std::size_t reading_span(const DrivenSeries& series) {
-  constexpr double kChange = 0.1;
-  const std::size_t longest = series.intervals() / 4;
-  std::size_t span = 2;
-  for (; 2 * span <= longest; span *= 2) {
-    double moved = 0.0;
-    double peak = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = span; i < series.motion.size(); i += span, ++count) {
-      if (!(series.weight[i] > 0.0 && series.weight[i - span] > 0.0)) continue;
-      moved += std::abs(series.motion[i] - series.motion[i - span]);
-      peak = std::max(peak, std::abs(series.motion[i]));
-    }
-    if (moved >= kChange * peak * static_cast<double>(count)) break;
-  }
-  return span;
-}
-
 std::vector<double> driven_start(const DrivenProblem& problem) {
   constexpr double kHigher = 0.1;  // of higher terms, over the linear one
   double torque_motion = 0.0;
@@ -161,7 +182,7 @@ std::vector<double> driven_start(const DrivenProblem& problem) {
   double speed_speed = 0.0;
   double lost = 0.0;
   for (const auto& one : problem.series) {
-    const std::size_t span = reading_span(one);
+    const std::size_t span = one.reading_span;
     for (std::size_t i = span; i < one.time.size(); i += span) {
       if (!(one.weight[i] > 0.0 && one.weight[i - span] > 0.0)) continue;
       const double moved = one.motion[i] - one.motion[i - span];

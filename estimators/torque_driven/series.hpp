@@ -20,6 +20,9 @@ struct DrivenSeries {
   double initial = 0.0;        ///< known motion at the first sample
   double step = 0.0;           ///< s between samples where all are alike, else 0
   bool all_valid = true;
+  /// Samples between which a speed can be read: so many that the motion changes by a tenth of its
+  /// peak on average, which is beyond the noise.
+  std::size_t reading_span = 2;
 
   std::size_t intervals() const { return time.size() - 1; }
   double width(std::size_t n) const { return step > 0.0 ? step : time[n + 1] - time[n]; }
@@ -52,10 +55,6 @@ enum class InitialMotion { rest, measured };
 /// Errors: bad_data for records without motion or torque, or too short for the terms.
 Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, int f, int g, int h,
                                      InitialMotion initial);
-
-/// Samples between which a speed can be read: so many that the motion changes by a tenth of its
-/// peak on average, which is beyond the noise.
-std::size_t reading_span(const DrivenSeries& series);
 
 /// A linear spring by regression and a linear damper from the energy that the recordings lose, with
 /// a little of every higher term; h = 1.
