@@ -6,19 +6,31 @@
 
 #include <fmt/format.h>
 
+#include "torque_driven/crew.hpp"
+
 namespace flexspline::estimators {
 namespace {
 
-Result<Intervals> by_profile(const FittedProblem& fit, const SolverSettings& solver) {
-  Intervals result;
-  std::size_t open = 0;
-  for (std::size_t k = 0; k < fit.p.size(); ++k) {
-    const auto one =
+// The parameters' profiles do not need each other: threads take them, rather than blocks.
+std::vector<Result<ProfileInterval>> profiles_of(const FittedProblem& fit, SolverSettings solver) {
+  std::vector<Result<ProfileInterval>> profiles(fit.p.size());
+  Crew crew(std::min(solver.threads, static_cast<int>(fit.p.size())));
+  solver.threads = 1;
+  crew.run(profiles.size(), [&](std::size_t k) {
+    profiles[k] =
         profile_interval(fit.problem, fit.parameters, fit.p, fit.covariance, k,
                          {.variance = fit.variances.empty() ? fit.variance : fit.variances[k],
                           .quantile = fit.quantile,
                           .tolerance = fit.tolerance,
                           .solver = solver});
+  });
+  return profiles;
+}
+
+Result<Intervals> by_profile(const FittedProblem& fit, const SolverSettings& solver) {
+  Intervals result;
+  std::size_t open = 0;
+  for (const auto& one : profiles_of(fit, solver)) {
     if (!one) return tl::unexpected(one.error());
     open += one->lower_open || one->upper_open;
     result.lower.push_back(one->lower);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "torque_driven/crew.hpp"
 #include "torsion/torque_residuals.hpp"
 #include "torsion/torsion_residuals.hpp"
 #include "uncertainty/bounded_draws.hpp"
@@ -38,6 +39,8 @@ Result<Intervals> of(const LeastSquaresProblem& problem, const TrajectoryFit& fi
   // The filters of the residuals stand where the fit ended: settle there first.
   const auto settled = minimise(problem, bounds, solver);
   if (!settled) return tl::unexpected(settled.error());
+  const ProcessorShare share(settings.kind == Uncertainty::profile ? 0 : 1);
+  solver.threads = share.threads();
   return intervals({.problem = problem,
                     .parameters = bounds,
                     .p = settled->p,
