@@ -2,19 +2,11 @@
 #include <chrono>
 #include <cmath>
 
-#include <fmt/format.h>
-#include <Eigen/Dense>
-
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/effect_dependence.hpp"
-#include "flexspline/core/law.hpp"
 #include "flexspline/estimators/method.hpp"
-#include "given_model/given_residuals.hpp"
+#include "given_model/given_estimate.hpp"
 #include "given_model/given_start.hpp"
-#include "ode_fit/verdict.hpp"
-#include "uncertainty/bands.hpp"
-#include "uncertainty/covariance.hpp"
-#include "uncertainty/estimate_parts.hpp"
 
 namespace flexspline::estimators {
 
@@ -77,106 +69,6 @@ std::vector<BoundedParameter> bounded(const GivenResiduals& problem,
   return list;
 }
 
-Identifiability judge(const GivenResiduals& problem, const LeastSquaresSolution& solution,
-                      const Linearisation& linear, double noise) {
-  OdeLayout names;
-  std::vector<Eigen::Index> loose;
-  for (std::size_t k = 0; k < solution.p.size(); ++k) {
-    names.unknowns.push_back({.name = problem.unknowns()[k].name});
-    if (!solution.bound_active[k]) loose.push_back(static_cast<Eigen::Index>(k));
-  }
-  const auto n = static_cast<Eigen::Index>(solution.p.size());
-  const Eigen::MatrixXd free = Eigen::MatrixXd::Identity(n, n)(Eigen::all, loose);
-  return verdict(names, solution.p, free, linear.jacobian, noise, false);
-}
-
-struct Reach {
-  double motion = 0.0;
-  double rate = 0.0;
-};
-
-Reach reach_of(const std::vector<GivenRecord>& records) {
-  Reach reach;
-  for (const GivenRecord& one : records) {
-    for (std::size_t i : one.rows) {
-      reach.motion = std::max(reach.motion, std::abs(one.motion.position[i]));
-      reach.rate = std::max(reach.rate, std::abs(one.motion.velocity[i]));
-    }
-  }
-  return reach;
-}
-
-/// Bands of the laws that have free coefficients.
-std::vector<FunctionBand> bands_of(const ModelSpec& model, const GivenResiduals& problem,
-                                   const Eigen::MatrixXd& covariance, const Reach& reach) {
-  std::vector<FunctionBand> bands;
-  const std::pair<const char*, std::pair<const LawSpec*, double>> laws[] = {
-      {"f", {&model.f, reach.motion}},
-      {"g_inverse", {&model.g_inverse, reach.rate}},
-      {"h", {&model.h, reach.motion}}};
-  for (const auto& [name, law] : laws) {
-    const auto size = static_cast<Eigen::Index>(law.first->coefficients.size());
-    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
-    std::vector<Eigen::Index> at(static_cast<std::size_t>(size), -1);
-    for (std::size_t k = 0; k < problem.of_model(); ++k) {
-      for (Eigen::Index c = 0; c < size; ++c) {
-        if (problem.unknowns()[k].name == fmt::format("{}[{}]", name, c))
-          at[static_cast<std::size_t>(c)] = static_cast<Eigen::Index>(k);
-      }
-    }
-    if (std::ranges::none_of(at, [](auto k) { return k >= 0; })) continue;
-    for (Eigen::Index a = 0; a < size; ++a) {
-      for (Eigen::Index b = 0; b < size; ++b) {
-        const auto i = at[static_cast<std::size_t>(a)], j = at[static_cast<std::size_t>(b)];
-        if (i >= 0 && j >= 0) own(a, b) = covariance(i, j);
-      }
-    }
-    const auto made = make_law(*law.first);
-    if (!made) continue;
-    bands.push_back(law_band(name, **made, own, -law.second, law.second));
-  }
-  return bands;
-}
-
-Estimate estimate_of(const GivenResiduals& problem, const LeastSquaresSolution& solution,
-                     const Linearisation& linear, const std::vector<GivenRecord>& records) {
-  const auto rows = static_cast<double>(linear.residual.size());
-  const auto loose = std::ranges::count(solution.bound_active, false);
-  const double variance =
-      linear.residual.squaredNorm() / std::max(1.0, rows - static_cast<double>(loose));
-  const Eigen::MatrixXd covariance =
-      sandwich(linear.jacobian, score_covariance(problem, linear), solution.bound_active);
-  Estimate estimate;
-  estimate.estimator = "model_file";
-  estimate.model = problem.model_at(solution.p);
-  const Reach reach = reach_of(records);
-  estimate.model.f.valid_to = reach.motion;
-  estimate.model.g_inverse.valid_to = reach.rate;
-  for (std::size_t k = 0; k < solution.p.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    const GivenParameter& one = problem.unknowns()[k];
-    estimate.parameters.push_back(parameter_estimate(one.name, one.unit, solution.p[k],
-                                                     covariance(i, i), solution.bound_active[k]));
-  }
-  estimate.termination = solution.termination;
-  estimate.cost = solution.cost;
-  estimate.residual = fmt::format("{} along the measured motion, {}",
-                                  records.front().record.linear ? "force" : "torque",
-                                  records.front().record.linear ? "N" : "Nm");
-  Eigen::Index row = 0;
-  for (const GivenRecord& one : records) {
-    const auto height = static_cast<Eigen::Index>(one.rows.size());
-    estimate.fits.push_back(
-        {one.record.id, Split::train,
-         linear.residual.segment(row, height).norm() / std::sqrt(static_cast<double>(height))});
-    row += height;
-  }
-  estimate.identifiability = judge(problem, solution, linear, std::sqrt(variance));
-  estimate.bands = bands_of(estimate.model, problem, covariance, reach);
-  estimate.evaluations = solution.evaluations;
-  return estimate;
-}
-
 double rms_effort(const std::vector<GivenRecord>& records) {
   double sum = 0.0;
   double count = 0.0;
@@ -222,7 +114,7 @@ Result<Estimate> fit(const FitProblem& problem) {
   if (!solution) return tl::unexpected(solution.error());
   const auto linear = linearise(residuals, solution->p);
   if (!linear) return tl::unexpected(linear.error());
-  Estimate estimate = estimate_of(residuals, *solution, *linear, *records);
+  Estimate estimate = given_estimate(residuals, *solution, *linear, *records);
   estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return estimate;
