@@ -105,6 +105,14 @@ const CaseRecording* Case::recording(const std::string& id) const {
   return found == recordings.end() ? nullptr : &*found;
 }
 
+std::vector<const CaseRecording*> Case::trained() const {
+  std::vector<const CaseRecording*> found;
+  for (const CaseRecording& item : recordings) {
+    if (item.trained) found.push_back(&item);
+  }
+  return found;
+}
+
 Result<Artefacts> read_artefacts(const fs::path& folder) {
   Artefacts artefacts;
   auto& unreadable = artefacts.unreadable;

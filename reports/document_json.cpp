@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checksum.hpp"
+#include "extent.hpp"
 #include "numbers.hpp"
 
 namespace flexspline::reports {
@@ -17,13 +18,9 @@ constexpr int kDrawnDigits = 4;  ///< a 2000-pixel picture shows no more
 
 /// What moves little about a large value needs the more digits.
 std::vector<double> drawn(const std::vector<double>& values, int more = 0) {
-  double lower = HUGE_VAL, upper = -HUGE_VAL;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    lower = std::min(lower, value);
-    upper = std::max(upper, value);
-  }
-  const double offset = std::max(std::abs(lower), std::abs(upper)) / (upper - lower);
+  Extent extent;
+  extent.take(values);
+  const double offset = extent.reach() / (extent.upper - extent.lower);
   if (std::isfinite(offset) && offset > 2.0) more += static_cast<int>(std::log10(offset)) + 1;
   return rounded(values, kDrawnDigits + std::min(more, 9));
 }

@@ -5,12 +5,6 @@
 namespace flexspline::reports {
 namespace {
 
-bool is_numeric(const Table& table, std::size_t column) {
-  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-    return column < row.size() && std::holds_alternative<double>(row[column]);
-  });
-}
-
 std::string cell_html(const char* tag, bool numeric, const std::string& text) {
   const std::string open =
       numeric ? std::string("<") + tag + " class=\"n\">" : std::string("<") + tag + ">";

@@ -84,13 +84,13 @@ std::string row_text(const Table& table, const std::vector<Cell>& row, std::stri
   return line;
 }
 
+}  // namespace
+
 bool is_numeric(const Table& table, std::size_t column) {
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
     return column < row.size() && std::holds_alternative<double>(row[column]);
   });
 }
-
-}  // namespace
 
 Table without_empty_columns(Table table) {
   const auto is_absent = [](const Cell& cell) {

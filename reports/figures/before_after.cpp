@@ -58,15 +58,16 @@ Figure before_after_figure(const DiagnosisView& view) {
     after.x.push_back(rms_of(one.measured, one.after));
     after.y.push_back(row);
   }
-  const double noise = in_shown_effort(view, view.noise_floor);
-  if (!view.has_equations() && std::isfinite(noise)) {
-    panel.marks.push_back({rounded(noise, 3), "noise floor / " + view.units.effort});
-  }
   if (before.x.empty()) return figure;
   const auto largest = [](const Series& series) {
     return series.x.empty() ? 0.0 : *std::max_element(series.x.begin(), series.x.end());
   };
   panel.x.range = {0.0, rounded(1.05 * std::max(largest(before), largest(after)), 2)};
+  // The floor is that of the torque at the output: a motor's equation has one of its own.
+  const double noise = in_shown_effort(view, view.noise_floor);
+  if (!view.has_equations() && noise < panel.x.range->second) {
+    panel.marks.push_back({rounded(noise, 3), "noise floor / " + view.units.effort});
+  }
   panel.series.push_back(std::move(before));
   if (!after.x.empty()) panel.series.push_back(std::move(after));
   figure.frames.push_back({{}, {std::move(panel)}});

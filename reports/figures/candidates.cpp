@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "extent.hpp"
 #include "figures/diagnosis_figures.hpp"
 #include "numbers.hpp"
 
@@ -18,14 +19,10 @@ double row_of(std::vector<std::string>& categories, const std::string& name) {
 
 /// Zero is what the criterion is compared with.
 void show_zero(Panel& panel) {
-  double lower = 0.0, upper = 0.0;
-  for (const Series& series : panel.series) {
-    for (const double x : series.x) {
-      lower = std::min(lower, x);
-      upper = std::max(upper, x);
-    }
-  }
-  panel.x.range = widened(lower, upper, 0.05);
+  Extent extent;
+  extent.take(0.0);
+  for (const Series& series : panel.series) extent.take(series.x);
+  panel.x.range = widened(extent.lower, extent.upper, 0.05);
   panel.marks.push_back({0.0, "no change"});
 }
 

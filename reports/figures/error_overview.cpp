@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
 
@@ -48,18 +49,13 @@ Panel torque_panel(const StudyView& view, const std::string& title, Elsewhere el
 
 /// The same whole decades on every panel, so that they can be compared.
 void share_decades(std::vector<Panel>& panels) {
-  double lower = HUGE_VAL, upper = 0.0;
+  Extent extent;
   for (const Panel& panel : panels) {
-    for (const Series& series : panel.series) {
-      for (const double error : series.x) {
-        lower = std::min(lower, error);
-        upper = std::max(upper, error);
-      }
-    }
+    for (const Series& series : panel.series) extent.take(series.x);
   }
-  if (upper == 0.0) return;
-  const double first = std::pow(10.0, std::floor(std::log10(0.8 * lower)));
-  const double last = std::pow(10.0, std::ceil(std::log10(1.25 * upper)));
+  if (extent.empty()) return;
+  const double first = std::pow(10.0, std::floor(std::log10(0.8 * extent.lower)));
+  const double last = std::pow(10.0, std::ceil(std::log10(1.25 * extent.upper)));
   for (Panel& panel : panels) panel.x.range = {rounded(first, 3), rounded(last, 3)};
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
 
@@ -21,14 +22,6 @@ std::vector<double> errors_of(const StudyView& view, const EstimatorView& estima
     }
   }
   return errors;
-}
-
-std::vector<const CaseRecording*> trained(const Input&, const Case& item) {
-  std::vector<const CaseRecording*> found;
-  for (const CaseRecording& recording : item.recordings) {
-    if (recording.trained) found.push_back(&recording);
-  }
-  return found;
 }
 
 void add(Series& series, double x, double row) {
@@ -55,11 +48,12 @@ Figure estimators_figure(const StudyView& view) {
   Series own{"trained on, median", "points", {"plain", 0}, {}, {}, {}, {}};
   Series middle{"held out, median", "points", {"plain", 1}, {}, {}, {}, {}};
   Series worst{"held out, worst", "points", {"plain", 2}, {}, {}, {}, {}};
-  double lower = HUGE_VAL, upper = 0.0;
+  Extent extent;
   for (const EstimatorView& estimator : view.estimators()) {
     const auto row = static_cast<double>(panel.y.categories.size());
     panel.y.categories.push_back(estimator.id);
-    const auto given = errors_of(view, estimator, trained);
+    const auto given =
+        errors_of(view, estimator, [](const Input&, const Case& item) { return item.trained(); });
     const auto unseen = errors_of(view, estimator, [&](const Input& input, const Case& item) {
       return view.held_out(input, item);
     });
@@ -68,15 +62,12 @@ Figure estimators_figure(const StudyView& view) {
     add(worst, unseen.empty() ? kAbsent : *std::max_element(unseen.begin(), unseen.end()), row);
   }
   for (Series* series : {&own, &middle, &worst}) {
-    for (const double x : series->x) {
-      lower = std::min(lower, x);
-      upper = std::max(upper, x);
-    }
+    extent.take(series->x);
     if (!series->x.empty()) panel.series.push_back(std::move(*series));
   }
   if (panel.series.empty()) return figure;
-  panel.x.range = {std::pow(10.0, std::floor(std::log10(0.9 * lower))),
-                   std::pow(10.0, std::ceil(std::log10(1.1 * upper)))};
+  panel.x.range = {std::pow(10.0, std::floor(std::log10(0.9 * extent.lower))),
+                   std::pow(10.0, std::ceil(std::log10(1.1 * extent.upper)))};
   figure.frames.push_back({{}, {std::move(panel)}});
   return figure;
 }

@@ -2,22 +2,12 @@
 #include <array>
 #include <cmath>
 
+#include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
 
 namespace flexspline::reports {
 namespace {
-
-struct Extent {
-  double lower = HUGE_VAL;
-  double upper = -HUGE_VAL;
-
-  void take(double value) {
-    if (!std::isfinite(value)) return;
-    lower = std::min(lower, value);
-    upper = std::max(upper, value);
-  }
-};
 
 /// A band that is within its domain of validity at this argument, or has none.
 bool valid_at(const Band& band, double argument) {
@@ -98,7 +88,7 @@ Panel function_panel(const StudyView& view, const Input& input, const std::strin
     add_estimator(panel, extent, estimator, *band);
     add_marks(panel, *band, estimator.id);
   }
-  if (extent.values.lower <= extent.values.upper) panel.y.range = extent.range();
+  if (!extent.values.empty()) panel.y.range = extent.range();
   return panel;
 }
 

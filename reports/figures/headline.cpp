@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cmath>
 
+#include "extent.hpp"
 #include "figures/diagnosis_figures.hpp"
 #include "numbers.hpp"
 
@@ -34,16 +34,11 @@ Panel panel_of(const DiagnosisView& view, const ShownSeries& series, const std::
 
 /// Both models are judged on one scale.
 void share_efforts(std::vector<Panel>& panels) {
-  double lower = HUGE_VAL, upper = -HUGE_VAL;
+  Extent extent;
   for (const Panel& panel : panels) {
-    for (const Series& series : panel.series) {
-      for (const double y : series.y) {
-        lower = std::min(lower, y);
-        upper = std::max(upper, y);
-      }
-    }
+    for (const Series& series : panel.series) extent.take(series.y);
   }
-  for (Panel& panel : panels) panel.y.range = widened(lower, upper, 0.04);
+  for (Panel& panel : panels) panel.y.range = widened(extent.lower, extent.upper, 0.04);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
 
@@ -9,32 +10,23 @@ namespace {
 
 constexpr std::size_t kNumbersInLoopPicker = 160'000;
 
-struct Range {
-  double lower = 0.0;
-  double upper = 0.0;
-};
-
-Range range_of(const std::vector<double>& values) {
-  Range range{HUGE_VAL, -HUGE_VAL};
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    range.lower = std::min(range.lower, value);
-    range.upper = std::max(range.upper, value);
-  }
-  return range;
+Extent extent_of(const std::vector<double>& values) {
+  Extent extent;
+  extent.take(values);
+  return extent;
 }
 
 /// Keeps the measured loop in view where a simulated one leaves it by far.
 void keep_measured_in_view(Panel& panel, const std::string& unit) {
-  const Range measured = range_of(panel.series.front().y);
+  const Extent measured = extent_of(panel.series.front().y);
   const double span = measured.upper - measured.lower;
   if (!(span > 0.0)) return;
   const auto [lower, upper] = widened(measured.lower, measured.upper, 0.6);
   double largest = 0.0;
   for (const Series& series : panel.series) {
-    const Range all = range_of(series.y);
+    const Extent all = extent_of(series.y);
     if (all.lower < lower || all.upper > upper) {
-      largest = std::max({largest, std::abs(all.lower), std::abs(all.upper)});
+      largest = std::max(largest, all.reach());
     }
   }
   if (largest == 0.0) return;

@@ -10,7 +10,7 @@ namespace flexspline::reports {
 namespace {
 
 constexpr const char* kCaption =
-    "Means over twenty stretches of each coordinate, and the amplitude at each order. Noise "
+    "Means over up to twenty stretches of each coordinate, and the amplitude at each order. Noise "
     "averages to zero everywhere; a line that leaves zero, or an order that stands out, says which "
     "coordinate the missing physics follows.";
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
 
@@ -120,16 +121,13 @@ Role role_in(const std::string& side, const PaperSeries& series, int rank) {
 void share_axes(std::vector<Panel>& panels) {
   if (panels.size() < 2) return;
   for (const bool along_x : {true, false}) {
-    double lower = HUGE_VAL, upper = -HUGE_VAL;
+    Extent extent;
     for (const Panel& panel : panels) {
-      for (const Series& series : panel.series) {
-        for (const double value : along_x ? series.x : series.y) {
-          lower = std::min(lower, value);
-          upper = std::max(upper, value);
-        }
-      }
+      for (const Series& series : panel.series) extent.take(along_x ? series.x : series.y);
     }
-    for (Panel& panel : panels) (along_x ? panel.x : panel.y).range = widened(lower, upper, 0.04);
+    for (Panel& panel : panels) {
+      (along_x ? panel.x : panel.y).range = widened(extent.lower, extent.upper, 0.04);
+    }
   }
 }
 

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "extent.hpp"
 #include "numbers.hpp"
 
 namespace flexspline::reports {
 namespace {
 
-constexpr std::size_t kStretches = 20;
-constexpr std::size_t kFewest = 3;  ///< samples of a mean that is shown
+constexpr std::size_t kMostStretches = 20;
+constexpr std::size_t kSamplesOfOne = 6;  ///< at least, in the middle case
+constexpr std::size_t kFewest = 3;        ///< samples of a mean that is shown
 constexpr int kOrders = 10;
 
 /// Sums of one stretch of the coordinate.
@@ -30,14 +32,17 @@ struct Stretch {
 };
 
 std::vector<Stretch> stretches_of(const std::vector<double>& x, const std::vector<double>& values) {
-  std::vector<Stretch> stretches(kStretches);
-  const auto [first, last] = std::minmax_element(x.begin(), x.end());
-  const double width = (*last - *first) / static_cast<double>(kStretches);
+  const std::size_t count =
+      std::clamp<std::size_t>(values.size() / kSamplesOfOne, 2, kMostStretches);
+  std::vector<Stretch> stretches(count);
+  Extent extent;
+  extent.take(x);
+  const double width = (extent.upper - extent.lower) / static_cast<double>(count);
   if (!(width > 0.0)) return {};
   for (std::size_t i = 0; i < std::min(x.size(), values.size()); ++i) {
     if (!std::isfinite(x[i]) || !std::isfinite(values[i])) continue;
-    const auto at = static_cast<std::size_t>((x[i] - *first) / width);
-    stretches[std::min(at, kStretches - 1)].take(x[i], values[i]);
+    const auto at = static_cast<std::size_t>((x[i] - extent.lower) / width);
+    stretches[std::min(at, count - 1)].take(x[i], values[i]);
   }
   std::erase_if(stretches, [](const Stretch& one) { return one.count < kFewest; });
   return stretches;
@@ -52,7 +57,7 @@ void add_means(Panel& panel, const std::vector<double>& x, const Remainder& left
     band.lower.push_back(one.mean() - 2.0 * one.standard_error());
     band.upper.push_back(one.mean() + 2.0 * one.standard_error());
   }
-  if (line.x.empty()) return;
+  if (line.x.size() < 2) return;
   if (bands) {
     band.x = line.x;
     band.y = line.y;
@@ -81,9 +86,9 @@ Series orders_of(const std::vector<double>& phase, const Remainder& left) {
 
 /// Orders of less than a turn mean nothing.
 bool turns(const std::vector<double>& phase) {
-  if (phase.empty()) return false;
-  const auto [first, last] = std::minmax_element(phase.begin(), phase.end());
-  return *last - *first > 1.9 * std::numbers::pi;
+  Extent extent;
+  extent.take(phase);
+  return extent.upper - extent.lower > 1.9 * std::numbers::pi;
 }
 
 }  // namespace

@@ -17,14 +17,6 @@ struct Spread {
   std::size_t count = 0;
 };
 
-std::vector<const CaseRecording*> trained(const Case& item) {
-  std::vector<const CaseRecording*> found;
-  for (const CaseRecording& recording : item.recordings) {
-    if (recording.trained) found.push_back(&recording);
-  }
-  return found;
-}
-
 enum class Loops { trained, unseen };
 
 /// Over the loops an estimator was given, or over those that nobody was; where another estimator is
@@ -37,7 +29,7 @@ Spread spread_of(const StudyView& view, const EstimatorView& estimator, Loops lo
     const Case* item = view.find(input, estimator);
     if (item == nullptr || (other != nullptr && view.find(input, *other) == nullptr)) continue;
     const bool unseen = loops == Loops::unseen;
-    for (const CaseRecording* recording : unseen ? view.held_out(input, *item) : trained(*item)) {
+    for (const CaseRecording* recording : unseen ? view.held_out(input, *item) : item->trained()) {
       const double error = recording->error_percent();
       if (!std::isfinite(error)) continue;
       all.push_back(error);

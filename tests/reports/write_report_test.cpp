@@ -188,6 +188,15 @@ TEST(WriteReport, SaysThatNodeIsAbsentAndDrawsThePageAllTheSame) {
   EXPECT_FALSE(fs::exists(study.path() / "report" / "figures" / "own-loop.svg"));
 }
 
+TEST(WriteReport, OrdersWhatIsLeftByEveryCoordinate) {
+  const StudyFolder study;
+  ASSERT_TRUE(write_report(study.path()));
+  const std::string twin = study.text("report/report.json");
+  for (const char* title : {"by time", "by torsion", "by velocity", "by load", "by order of"}) {
+    EXPECT_TRUE(contains(twin, title)) << title;
+  }
+}
+
 TEST(WriteReport, SetsThePaperBesideOurs) {
   const StudyFolder study;
   ASSERT_TRUE(write_report(study.path()));

@@ -107,6 +107,7 @@ struct Case {
 
   const Band* band(const std::string& function) const;
   const CaseRecording* recording(const std::string& id) const;
+  std::vector<const CaseRecording*> trained() const;
 };
 
 struct Fact {

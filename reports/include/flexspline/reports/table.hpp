@@ -23,6 +23,9 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
+/// Whether a column holds numbers, in some row at least.
+bool is_numeric(const Table& table, std::size_t column);
+
 /// The table without columns of numbers none of which exists.
 Table without_empty_columns(Table table);
 
