@@ -143,11 +143,11 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   if (!recordings) return tl::unexpected(recordings.error());
   const auto given = given_parameters(model);
   if (!given) return tl::unexpected(given.error());
+  const auto clock = servo_clock(*recordings);
+  if (!clock) return tl::unexpected(clock.error());
   auto drive = servo_start(set, *recordings);
   if (!drive) return tl::unexpected(drive.error());
   drive->torsion = model.model;
-  const auto clock = servo_clock(*recordings);
-  if (!clock) return tl::unexpected(clock.error());
   auto rig = make_rig(Rig::servo, *drive, clock->inputs, "voltage_driven");
   if (!rig) return tl::unexpected(rig.error());
   const Unknowns unknowns = unknowns_of(*drive, (*rig)->parameter_list(), *given);

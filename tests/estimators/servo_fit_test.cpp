@@ -1,0 +1,114 @@
+// A servo's recordings, simulated with known constants: the constants come back.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "flexspline/estimators/servo_fit.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+using ::testing::HasSubstr;
+
+ModelSpec friction(double coulomb, double viscous, double load) {
+  const LawSpec nothing{.law = "odd_polynomial", .scale = 1.0, .knots = {}, .coefficients = {0.0}};
+  return {.f = nothing,
+          .g_inverse = nothing,
+          .h = {.law = "bounded_modulation", .knots = {}, .coefficients = {}},
+          .effects = {{"coulomb_viscous_friction",
+                       {{"coulomb", coulomb}, {"viscous", viscous}, {"smoothing", 0.05}}},
+                      {"directional_load_friction",
+                       {{"motor_share", load},
+                        {"load_share", 0.5 * load},
+                        {"smoothing", 0.05},
+                        {"load_smoothing", 0.01}}}}};
+}
+
+DriveSpec drive() {
+  DriveSpec d;
+  d.torsion = friction(0.03, 0.01, 0.1);
+  d.load_mass = 0.5;
+  d.arm_length = 0.1;
+  d.load_inertia = 0.005;
+  d.motor_inertia = 0.002;
+  d.torque_constant = d.back_emf = 0.4;
+  d.resistance = 4.0;
+  return d;
+}
+
+Recording recording(const std::string& id, double amplitude, double omega) {
+  Recording one;
+  one.id = id;
+  std::vector<double> duty;
+  std::vector<double> on;
+  for (int k = 0; k < 600; ++k) {
+    const double t = 0.01 * k;
+    one.time.push_back(t);
+    duty.push_back(amplitude * (std::sin(omega * t) + 0.4 * std::sin(3.3 * omega * t)));
+    on.push_back(t < 4.5 ? 1.0 : 0.0);
+  }
+  one.channels[Quantity::duty_cycle] = duty;
+  one.channels[Quantity::drive_enabled] = on;
+  one.channels[Quantity::supply_voltage].assign(one.time.size(), 7.4);
+  one.channels[Quantity::load_angle].assign(one.time.size(), 0.0);
+  one.channels[Quantity::load_angle] = *simulate_servo(drive(), one, 1e-9);
+  return one;
+}
+
+RecordingSet pendulum() {
+  RecordingSet set;
+  set.name = "pendulum";
+  set.rig = Rig::servo;
+  set.constants = {{"load_mass_kg", 0.5}, {"arm_length_m", 0.1}};
+  set.recordings = {recording("slow", 0.5, 2.0), recording("fast", 0.8, 5.0),
+                    recording("held", 0.6, 3.0)};
+  set.recordings.back().split = Split::holdout;
+  return set;
+}
+
+double value_of(const Estimate& estimate, const std::string& name) {
+  for (const auto& one : estimate.parameters) {
+    if (one.name == name) return one.value;
+  }
+  ADD_FAILURE() << "no " << name;
+  return 0.0;
+}
+
+TEST(ServoFit, BringsTheConstantsBack) {
+  const RecordingSet set = pendulum();
+  const auto fit = fit_servo(set, {friction(0.01, 0.002, 0.05), {}, {}}, {.tolerance = 1e-7});
+  ASSERT_TRUE(fit) << fit.error().message();
+  EXPECT_EQ(fit->estimate.fits.size(), 2U);
+  EXPECT_NEAR(value_of(fit->estimate, "torque_constant"), 0.4, 4e-3);
+  EXPECT_NEAR(value_of(fit->estimate, "resistance"), 4.0, 0.04);
+  EXPECT_NEAR(value_of(fit->estimate, "motor_inertia"), 0.002, 4e-5);
+  EXPECT_NEAR(value_of(fit->estimate, "coulomb_viscous_friction.coulomb"), 0.03, 1e-3);
+  EXPECT_NEAR(value_of(fit->estimate, "directional_load_friction.motor_share"), 0.1, 5e-3);
+  const auto angle = simulate_servo(fit->drive, set.recordings.back());
+  ASSERT_TRUE(angle) << angle.error().message();
+  const auto& measured = set.recordings.back().channels.at(Quantity::load_angle);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    worst = std::max(worst, std::abs((*angle)[i] - measured[i]));
+  EXPECT_LT(worst, 5e-3);
+}
+
+TEST(ServoFit, RefusesWhatItCannotScaleOrDrive) {
+  auto set = pendulum();
+  set.constants.erase("load_mass_kg");
+  EXPECT_THAT(fit_servo(set, {friction(0.01, 0.0, 0.0), {}, {}}).error().message(),
+              HasSubstr("load_mass_kg"));
+  set = pendulum();
+  set.recordings[0].channels.erase(Quantity::supply_voltage);
+  set.recordings[0].channels.erase(Quantity::duty_cycle);
+  const auto fit = fit_servo(set, {friction(0.01, 0.0, 0.0), {}, {}});
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message(), HasSubstr("slow"));
+  for (Recording& one : set.recordings) one.split = Split::holdout;
+  EXPECT_THAT(fit_servo(set, {friction(0.01, 0.0, 0.0), {}, {}}).error().message(),
+              HasSubstr("no recording to train on"));
+}
+
+}  // namespace
+}  // namespace flexspline::estimators
