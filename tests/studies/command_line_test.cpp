@@ -63,6 +63,8 @@ TEST_F(CommandLine, UsageErrorsExitWith2) {
   EXPECT_EQ(call("run").code, 2);
   EXPECT_EQ(call("run a.toml --out x --frobnicate").code, 2);
   EXPECT_EQ(call("list nothing").code, 2);
+  EXPECT_EQ(call("fit somewhere --out x").code, 2);
+  EXPECT_EQ(call("fit somewhere --estimator bouc_wen --model m.toml --out x").code, 2);
   const Finished done = call("rnu a.toml");
   EXPECT_EQ(done.code, 2);
   EXPECT_THAT(done.output, HasSubstr("did you mean 'run'?"));

@@ -121,6 +121,17 @@ INSTANTIATE_TEST_SUITE_P(
                 kHead + kGrid + kInput +
                     "[[estimator]]\nid = \"p\"\nmethod = \"midpoint_polynomial\"\n",
                 ":", "names no grid to train on", "train ="},
+        Refusal{"model_that_nobody_takes",
+                kHead + kGrid + kInput + kEstimator + "model = \"a.toml\"\n", ":", "takes no model",
+                "model_file"},
+        Refusal{"no_model",
+                kHead + kGrid + kInput +
+                    "[[estimator]]\nid = \"p\"\nmethod = \"model_file\"\ntrain = \"point\"\n",
+                ":", "fits a model and is given none", "add model"},
+        Refusal{"held_out_of_a_truth",
+                kHead + kGrid + "[[input]]\nid = \"a\"\ntruth = \"unity\"\nheld_out = [\"b\"]\n" +
+                    kEstimator,
+                ":10:", "is no data set", "holdout"},
         Refusal{"unknown_option", kHead + kGrid + kInput + kEstimator + "options = { speed = 3 }\n",
                 ":15:", "speed", ""},
         Refusal{"unknown_input_of_estimator",
