@@ -11,7 +11,6 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/reports/report.hpp"
-#include "flexspline/studies/diagnosis_json.hpp"
 #include "stop_signal.hpp"
 
 namespace flexspline::app {
@@ -40,7 +39,8 @@ Error as_reported(Error error) {
 
 Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
                                               const std::filesystem::path& folder) {
-  const auto written = data::write_artefact(folder / "diagnosis.json", diagnosis_artefact(diagnosis));
+  const auto written =
+      data::write_artefact(folder / "diagnosis.json", diagnosis_artefact(diagnosis));
   if (!written) return tl::unexpected(written.error());
   if (diagnosis.model) {
     const auto model = data::write_model(folder / "model.toml", *diagnosis.model);
@@ -93,7 +93,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
   const auto page = write_diagnosis(*diagnosis, arguments.text("out"));
   if (!page) return tl::unexpected(page.error());
-  console.result(console.json ? to_json(*diagnosis).dump(2)
+  console.result(console.json ? diagnosis_artefact(*diagnosis).dump(2)
                               : summary_of(*diagnosis) + "\n" + page->string());
   return kDone;
 }
