@@ -49,13 +49,18 @@ std::string sentence_of(const StudyView& view, const EstimatorView& estimator) {
   const Spread own = spread_of(view, estimator, Loops::trained);
   const Spread other = spread_of(view, estimator, Loops::unseen);
   std::string text = estimator.id;
-  if (own.count > 0) {
+  if (own.count == 1) {
+    text += " fits the loop it was given to " + digits(own.worst, 2) + " % of peak";
+  } else if (own.count > 1) {
     text += " fits the loops it was given to " + digits(own.middle, 2) +
             " % of peak in the middle case and " + digits(own.worst, 2) + " % at worst";
   } else {
     text += " gave no numbers on the loops it was given";
   }
-  if (other.count > 0) {
+  if (other.count == 1) {
+    text += "; on the one that was kept from every estimator it is off by " +
+            digits(other.worst, 2) + " % (" + other.worst_where + ")";
+  } else if (other.count > 1) {
     text += "; on the " + std::to_string(other.count) +
             " that were kept from every estimator it is off by " + digits(other.best, 2) +
             " % at best, " + digits(other.middle, 2) + " % in the middle case and " +
