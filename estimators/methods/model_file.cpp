@@ -14,6 +14,9 @@ MethodRow describe_model_file();
 
 namespace {
 
+constexpr double kStepOfScale = 1e-2;  // of a scale: the size that differences of an unknown near
+                                       // zero are taken by
+
 /// An effect that looks at the torque makes every other number non-linear.
 bool follows_torque(const EffectSpec& spec) {
   const auto row = find_effect(spec.effect);
@@ -79,6 +82,18 @@ double rms_effort(const std::vector<GivenRecord>& records) {
   return std::sqrt(sum / std::max(1.0, count));
 }
 
+/// All unknowns together from a start, in scales by what they move the torque.
+Result<LeastSquaresSolution> solved(GivenResiduals& residuals, const std::vector<double>& start,
+                                    double effort, int iterations) {
+  const auto at_start = linearise(residuals, start);
+  if (!at_start) return tl::unexpected(at_start.error());
+  const auto unknowns = bounded(residuals, start, *at_start, effort);
+  std::vector<double> sizes;
+  for (const auto& one : unknowns) sizes.push_back(kStepOfScale * one.scale);
+  residuals.set_sizes(sizes);
+  return minimise(residuals, unknowns, {.max_iterations = iterations, .function_tolerance = 1e-9});
+}
+
 Result<Estimate> fit(const FitProblem& problem) {
   const auto started = std::chrono::steady_clock::now();
   const MethodRow method = describe_model_file();
@@ -101,16 +116,8 @@ Result<Estimate> fit(const FitProblem& problem) {
   const auto start = start_of(*problem.model, *parameters, *records, each_zero, residuals,
                               static_cast<int>(number(problem, method, "start_steps")));
   if (!start) return tl::unexpected(start.error());
-  const auto at_start = linearise(residuals, *start);
-  if (!at_start) return tl::unexpected(at_start.error());
-  const auto unknowns = bounded(residuals, *start, *at_start, rms_effort(*records));
-  std::vector<double> sizes;
-  for (const auto& one : unknowns) sizes.push_back(1e-2 * one.scale);
-  residuals.set_sizes(sizes);
-  const auto solution =
-      minimise(residuals, unknowns,
-               {.max_iterations = static_cast<int>(number(problem, method, "iterations")),
-                .function_tolerance = 1e-9});
+  const auto solution = solved(residuals, *start, rms_effort(*records),
+                               static_cast<int>(number(problem, method, "iterations")));
   if (!solution) return tl::unexpected(solution.error());
   const auto linear = linearise(residuals, solution->p);
   if (!linear) return tl::unexpected(linear.error());
