@@ -1,11 +1,11 @@
 #include "diagnosis/selection.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "diagnosis/explanation.hpp"
+#include "diagnosis/needless.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -15,71 +15,6 @@ constexpr int kRefreshSteps = 8;
 bool admissible(const Trial& trial, const Limits& limits) {
   return trial.cause.row != nullptr && trial.net_gain >= limits.net_gain &&
          !is_taken_up(trial, limits);
-}
-
-double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
-  double rise = 0.0;
-  for (Equation equation : frame.equations) {
-    const std::size_t e = index_of(equation);
-    rise += (fit.sum_of_squares[e] - findings.fit.sum_of_squares[e]) / findings.noise[e].colour;
-  }
-  return rise;
-}
-
-bool stands_for(const Accepted& a, const Accepted& b) {
-  return std::ranges::any_of(a.rivals,
-                             [&](const Trial& t) { return t.cause.row == b.trial.cause.row; });
-}
-
-bool share_equation(const Accepted& a, const Accepted& b) {
-  return std::ranges::any_of(a.trial.cause.form->at, [&](Equation e) {
-    return std::ranges::count(b.trial.cause.form->at, e) > 0;
-  });
-}
-
-// Of two causes in one equation, what a small one explains may be no more than the form of the
-// large one.
-bool in_the_shadow(const Selection& s, std::size_t i, const std::vector<double>& loss,
-                   const Limits& limits) {
-  for (std::size_t k = 0; k < s.accepted.size(); ++k) {
-    const Accepted& small = s.accepted[i];
-    const Accepted& large = s.accepted[k];
-    if (k == i || !share_equation(small, large)) continue;
-    const bool twins = stands_for(small, large) || stands_for(large, small);
-    const double limit = twins ? limits.twin_shadow : limits.shadow;
-    const double worth = twins ? std::max(small.first_gain, large.first_gain) : loss[k];
-    if (loss[i] < limit * worth) return true;
-  }
-  return false;
-}
-
-// A cause that the later ones made needless goes again.
-Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selection& s) {
-  for (bool changed = true; changed && s.accepted.size() > 1;) {
-    changed = false;
-    std::vector<ModelFit> without;
-    std::vector<double> loss;
-    for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-      auto fit = reduced(frame, s.final, i, kRefreshSteps);
-      if (!fit) return tl::unexpected(fit.error());
-      loss.push_back(chi_square_rise(frame, s.final, *fit));
-      s.accepted[i].trial.gain = loss.back();
-      without.push_back(std::move(*fit));
-    }
-    const auto least = static_cast<std::size_t>(std::ranges::min_element(loss) - loss.begin());
-    const bool needed = loss[least] > limits.net_gain;
-    if (needed && !in_the_shadow(s, least, loss, limits)) break;
-    s.final.fit = std::move(without[least]);
-    s.accepted[least].withdrawn_because =
-        needed ? "what it explains is no more than the form of a larger one may miss"
-               : "the others explain it as well";
-    if (s.accepted[least].material) s.withdrawn.push_back(std::move(s.accepted[least]));
-    s.accepted.erase(s.accepted.begin() + static_cast<long>(least));
-    const auto again = refresh(frame, s.final, kRefreshSteps);
-    if (!again) return again;
-    changed = true;
-  }
-  return {};
 }
 
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/explanation.hpp"
+#include "diagnosis/prove.hpp"
+#include "drive_frame.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+const CauseRow& row_of(std::string_view id) {
+  return *std::ranges::find(causes(), id, &CauseRow::id);
+}
+
+/// A form that acts on the torsion equation, by columns or by a change of the motion.
+Trial trial_of(double size, double change, bool transform) {
+  static const CauseForm columns{.equation = "columns", .rigs = {}, .at = {Equation::torsion}};
+  static const CauseForm moved{.equation = "moved",
+                               .rigs = {},
+                               .at = {Equation::torsion},
+                               .transform = [](Frame&, std::span<const double>) {}};
+  Trial trial;
+  trial.cause = {&row_of("presliding_hysteresis"), transform ? &moved : &columns, {}};
+  trial.size = size;
+  trial.change = change;
+  return trial;
+}
+
+TEST(TakenUp, IsWhatIsLargeAndMovesThePredictionByLess) {
+  const Limits limits;
+  const double large = 1.2 * limits.taken_up;
+  EXPECT_TRUE(is_taken_up(trial_of(large, 0.5 * large, false), limits));
+  EXPECT_FALSE(is_taken_up(trial_of(large, 1.1 * large, false), limits)) << "it is seen in full";
+  EXPECT_FALSE(is_taken_up(trial_of(0.9 * limits.taken_up, 0.0, false), limits)) << "small";
+  EXPECT_FALSE(is_taken_up(trial_of(large, 0.0, true), limits)) << "no column";
+}
+
+Frame three_recordings() {
+  Frame f = closed_form_frame(6000);
+  f.segments = {{"a", 0, 3000, Split::unassigned},
+                {"b", 3000, 1500, Split::unassigned},
+                {"c", 4500, 1500, Split::unassigned}};
+  return f;
+}
+
+TEST(HeldOut, MarksOfTheDataSetDecide) {
+  Frame f = three_recordings();
+  f.segments[2].split = Split::holdout;
+  const ArrayXd held = held_out(f);
+  EXPECT_EQ(held.sum(), 1500.0);
+  EXPECT_EQ(held.tail(1500).minCoeff(), 1.0);
+}
+
+TEST(HeldOut, WithoutMarksOneThatLiesWithinTheReachOfOthers) {
+  Frame f = three_recordings();
+  const auto shrink = [](ArrayXd& x) { x.segment(3000, 1500) *= 0.1; };
+  shrink(f.torsion), shrink(f.torsion_rate), shrink(f.motor_speed), shrink(f.torque);
+  const ArrayXd held = held_out(f);
+  EXPECT_EQ(held.segment(3000, 1500).minCoeff(), 1.0);
+  EXPECT_EQ(held.sum(), 1500.0);
+}
+
+// Two recordings, each faster, or further, than the other.
+TEST(HeldOut, WhereEachReachesFurthestTheLastThirdOfEach) {
+  Frame f = closed_form_frame(6000);
+  f.torsion.tail(3000) *= 0.2;
+  const ArrayXd held = held_out(f);
+  EXPECT_EQ(held.sum(), 2000.0);
+  EXPECT_EQ(held.segment(0, 2000).maxCoeff(), 0.0);
+  EXPECT_EQ(held.segment(2000, 1000).minCoeff(), 1.0);
+  EXPECT_EQ(held.segment(5000, 1000).minCoeff(), 1.0);
+}
+
+TEST(HeldOut, NothingWhereTheEndsReachFurther) {
+  Frame f = closed_form_frame(6000);
+  f.torsion.tail(3000) *= 0.2;
+  const ArrayXd growing = ArrayXd::LinSpaced(3000, 0.0, 1.0);
+  f.torque.head(3000) = growing;
+  f.torque.tail(3000) = 0.1 * growing;
+  EXPECT_EQ(held_out(f).sum(), 0.0);
+}
+
+Selection selection_with(CoordinateScore before, CoordinateScore after) {
+  Selection s;
+  s.before = {std::move(before)};
+  s.after = {std::move(after)};
+  Accepted a;
+  a.trial = trial_of(0.1, 0.1, false);
+  s.accepted = {a};
+  return s;
+}
+
+TEST(Explanation, ACauseStandsAloneWhereItClearsWhatItsCoordinateOrdered) {
+  const Limits limits;
+  const CoordinateScore strong{Equation::torsion, "reversal_memory", 10.0 * limits.remainder,
+                               3.0 * limits.remainder_share, ""};
+  CoordinateScore weak = strong;
+  weak.share = 0.1 * limits.remainder_share;
+  CoordinateScore elsewhere = strong;
+  elsewhere.coordinate = "time";
+  CoordinateScore other_equation = strong;
+  other_equation.equation = Equation::motor;
+  const auto stands = [&](const CoordinateScore& before, const CoordinateScore& after) {
+    const Selection s = selection_with(before, after);
+    return clears_its_coordinate(s, s.accepted.front(), limits);
+  };
+  EXPECT_TRUE(stands(strong, weak));
+  EXPECT_FALSE(stands(weak, weak)) << "nothing was ordered by it";
+  EXPECT_FALSE(stands(elsewhere, weak)) << "something else was";
+  EXPECT_FALSE(stands(other_equation, weak)) << "of another equation";
+  EXPECT_FALSE(stands(strong, elsewhere)) << "something is still ordered";
+}
+
+TEST(Forms, OverTheMotorsAngleOfAServoNeedItsGearRatio) {
+  Frame f = closed_form_frame(6000);
+  f.rig = Rig::servo;
+  f.equations = {Equation::motor};
+  for (const char* id : {"motor_torque_ripple", "position_dependent_friction"}) {
+    EXPECT_FALSE(forms_on(row_of(id), f).empty()) << id;
+    Frame unknown = f;
+    unknown.ratio = 1.0;
+    EXPECT_TRUE(forms_on(row_of(id), unknown).empty()) << id;
+  }
+}
+
+// A joint whose torque is late shows the motion of then: sin(t) at t - d.
+TEST(Forms, LateTorqueOfAJointThatTravelsIsTheMotionOfThen) {
+  Frame f = closed_form_frame(6000);
+  f.rig = Rig::specimen;
+  f.equations = {Equation::torsion};
+  f.travels = true;
+  f.torsion = f.time.sin();
+  f.torsion_rate = f.time.cos();
+  f.torsion_acceleration = -f.time.sin();
+  f.measure_torsion();
+  const auto forms = forms_on(row_of("sensor_delay"), f);
+  ASSERT_EQ(forms.size(), 1U);
+  const double delay = 0.0371;
+  Frame late = f;
+  forms.front()->transform(late, std::array{delay});
+  const Index inside = static_cast<Index>(std::ceil(delay / f.interval));
+  for (const Segment& s : f.segments) {
+    const auto part = Eigen::seqN(s.first + inside, s.count - inside);
+    const ArrayXd then = f.time(part) - delay;
+    // Linear between rows: h^2/8.
+    const double error = f.interval * f.interval / 8.0 * 1.01;
+    EXPECT_LT((late.torsion(part) - then.sin()).abs().maxCoeff(), error);
+    EXPECT_LT((late.torsion_rate(part) - then.cos()).abs().maxCoeff(), error);
+    EXPECT_LT((late.torsion_acceleration(part) + then.sin()).abs().maxCoeff(), error);
+  }
+}
+
+}  // namespace
+}  // namespace flexspline::studies
