@@ -31,6 +31,27 @@ Verdict verdict_of(const Selection& s) {
   return s.remainder ? Verdict::partly_explained : Verdict::explained;
 }
 
+// One loop proves no cause: there is nothing to hold it against.
+Result<void> leave_out_unproved(const Frame& frame, const Limits& limits, Selection& selection) {
+  while (one_loop(frame) && !selection.accepted.empty()) {
+    const auto left_out = leave_out(frame, limits, selection, selection.accepted.size() - 1,
+                                    "one loop cannot prove it");
+    if (!left_out) return left_out;
+  }
+  return {};
+}
+
+void say_undecided(const Frame& frame, Diagnosis& d) {
+  d.next_experiment = another_rate(frame);
+  d.says = "Cannot be decided with these data: ";
+  d.says += d.verdict == Verdict::adequate
+                ? "the baseline follows this one loop, but at one amplitude and one rate viscous "
+                  "damping and a memory without rate look the same."
+                : "this one loop differs from the baseline, but one amplitude and one rate do not "
+                  "tell one cause from another.";
+  d.notes.push_back(d.says);
+}
+
 Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgress& progress) {
   if (progress) progress(0.0, "smoothing the motions");
   const auto frame = make_frame(recordings, kMostRows);
@@ -40,6 +61,8 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   auto selection = select_causes(*frame, limits, progress);
   if (!selection) return tl::unexpected(selection.error());
   if (progress) progress(0.75, "proving on recordings held out");
+  const auto proved = leave_out_unproved(*frame, limits, *selection);
+  if (!proved) return tl::unexpected(proved.error());
   const auto proof = confirm(*frame, limits, *selection);
   if (!proof) return tl::unexpected(proof.error());
   if (progress) progress(0.9, "comparing the candidates");
@@ -68,14 +91,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.series = spelled_series(*frame, *selection);
   d.next_experiment = next_experiment(*frame, *selection);
   d.says = spelled_verdict(d);
-  if (one_loop(*frame) && d.verdict == Verdict::adequate) {
-    d.next_experiment = another_rate(*frame);
-    d.says =
-        "Cannot be decided with these data: the baseline follows this one loop, but at one "
-        "amplitude "
-        "and one rate viscous damping and a memory without rate look the same.";
-    d.notes.push_back(d.says);
-  }
+  if (one_loop(*frame)) say_undecided(*frame, d);
   return d;
 }
 

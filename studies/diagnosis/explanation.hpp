@@ -13,8 +13,8 @@ bool is_left(const CoordinateScore& score, const Limits& limits);
 /// Largest mean square over noise of an equation.
 double worst_misfit(const Frame& frame, const Findings& findings);
 
-/// True where the accepted causes may stand as the explanation: they are few, they leave little
-/// that anything could order, and they remove most of the misfit, or leave no more than noise does.
+/// True where the accepted causes may stand as the explanation: they leave little that anything
+/// could order, and they remove most of the misfit, or leave no more than noise does.
 bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits);
 
 /// True for a cause that stands although much is left: its own coordinate stood out in the

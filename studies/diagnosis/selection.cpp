@@ -111,13 +111,10 @@ Result<void> fit_again(const Frame& frame, Selection& s) {
 
 // Causes that explain too little are withdrawn, but for those that clear what they order.
 Result<void> withdraw(const Frame& frame, const Limits& limits, Selection& s) {
-  const bool few = s.accepted.size() <= limits.causes;
   for (std::size_t i = s.accepted.size(); i > 0; --i) {
-    if (few && clears_its_coordinate(s, s.accepted[i - 1], limits)) continue;
+    if (clears_its_coordinate(s, s.accepted[i - 1], limits)) continue;
     const auto taken =
-        take_out(frame, s, i - 1,
-                 few ? "what it leaves is no noise, and no effect tried takes it away"
-                     : "so many causes together stand for something that has no name here");
+        take_out(frame, s, i - 1, "what it leaves is no noise, and no effect tried takes it away");
     if (!taken) return taken;
   }
   return fit_again(frame, s);

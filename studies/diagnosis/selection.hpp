@@ -25,7 +25,7 @@ struct Limits {
   double half = 0.5;             ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;           ///< mean square over noise that counts as explained
   double held_out = 1.0;         ///< error on recordings held out with a cause over without it
-  std::size_t causes = 3;        ///< more together are a stand-in for something without a name
+  std::size_t causes = 4;        ///< more together are a stand-in for something without a name
   int rounds = 7;
 };
 

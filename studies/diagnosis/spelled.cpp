@@ -127,6 +127,12 @@ void add_round(const Accepted& a, int round, const Limits& limits,
   }
 }
 
+std::string proof_in_words(const HoldoutProof& proof) {
+  if (!std::isfinite(proof.ratio)) return "No recording could be held out to prove it";
+  return fmt::format("With it the error on held-out recordings falls to {:.0f} % of before",
+                     100.0 * proof.ratio);
+}
+
 }  // namespace
 
 std::string baseline_in_words(const Frame& frame) {
@@ -297,14 +303,11 @@ std::string spelled_verdict(const Diagnosis& d) {
     case Verdict::adequate:
       return "Nothing was left out: the baseline explains the recordings to within their noise.";
     case Verdict::explained:
-      return fmt::format(
-          "Left out: {}. With it the error on held-out recordings falls to {:.0f} % of before.",
-          named, 100.0 * d.holdout.ratio);
+      return fmt::format("Left out: {}. {}.", named, proof_in_words(d.holdout));
     case Verdict::partly_explained:
       return fmt::format(
-          "Left out: {}. With it the error on held-out recordings falls to {:.0f} % "
-          "of before, but something that no catalogued effect explains is left.",
-          named, 100.0 * d.holdout.ratio);
+          "Left out: {}. {}, but something that no catalogued effect explains is left.", named,
+          proof_in_words(d.holdout));
     case Verdict::unexplained:
       break;
   }
