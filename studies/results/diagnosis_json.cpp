@@ -47,8 +47,19 @@ Json mismatch_json(const Mismatch& mismatch) {
           {"says", mismatch.says}};
 }
 
-Json parameter_json(const CauseParameter& parameter) {
-  const auto [factor, unit] = in_degrees(parameter.unit);
+// Causes are written for angles and torques; on a specimen that moves along a line the same
+// numbers are metres and newtons.
+std::pair<double, std::string> shown_unit(const Diagnosis& diagnosis, std::string unit) {
+  if (!is_linear(diagnosis)) return in_degrees(unit);
+  for (const auto& [angular, linear] : {std::pair{"Nm", "N"}, std::pair{"rad", "m"}}) {
+    const auto at = unit.find(angular);
+    if (at != std::string::npos) unit.replace(at, std::string_view(angular).size(), linear);
+  }
+  return {1.0, unit};
+}
+
+Json parameter_json(const Diagnosis& diagnosis, const CauseParameter& parameter) {
+  const auto [factor, unit] = shown_unit(diagnosis, parameter.unit);
   return {{"name", parameter.name},
           {"value", number(factor * parameter.value)},
           {"std", number(factor * parameter.std)},
@@ -63,9 +74,11 @@ Json evidence_json(const CauseEvidence& evidence) {
           {"placebo_ratio", number(evidence.placebo_ratio)}};
 }
 
-Json cause_json(const Cause& cause) {
+Json cause_json(const Diagnosis& diagnosis, const Cause& cause) {
   Json parameters = Json::array();
-  for (const CauseParameter& one : cause.parameters) parameters.push_back(parameter_json(one));
+  for (const CauseParameter& one : cause.parameters) {
+    parameters.push_back(parameter_json(diagnosis, one));
+  }
   return {{"effect", cause.effect},
           {"probability", number(cause.probability)},
           {"size_fraction", number(cause.size_fraction)},
@@ -91,8 +104,8 @@ Json tried_json(const TriedCandidate& tried) {
           {"outcome", tried.outcome}};
 }
 
-Json moved_json(const ParameterMove& move) {
-  const auto [factor, unit] = in_degrees(move.unit);
+Json moved_json(const Diagnosis& diagnosis, const ParameterMove& move) {
+  const auto [factor, unit] = shown_unit(diagnosis, move.unit);
   return {{"name", move.name},
           {"before", number(factor * move.before)},
           {"after", number(factor * move.after)},
@@ -158,7 +171,8 @@ Json to_json(const Diagnosis& diagnosis) {
                {"verdict", name_of(diagnosis.verdict)},
                {"says", diagnosis.says},
                {"mismatch", list_of(diagnosis.mismatch, mismatch_json)},
-               {"causes", list_of(diagnosis.causes, cause_json)},
+               {"causes", list_of(diagnosis.causes,
+                                  [&](const Cause& c) { return cause_json(diagnosis, c); })},
                {"confusable", list_of(diagnosis.confusable, confusable_json)},
                {"holdout", holdout_json(diagnosis.holdout)},
                {"next_experiment", nullptr}};
@@ -167,7 +181,8 @@ Json to_json(const Diagnosis& diagnosis) {
   }
   json["units"] = units_json(diagnosis);
   json["tried"] = list_of(diagnosis.tried, tried_json);
-  json["moved"] = list_of(diagnosis.moved, moved_json);
+  json["moved"] =
+      list_of(diagnosis.moved, [&](const ParameterMove& m) { return moved_json(diagnosis, m); });
   json["series"] = list_of(diagnosis.series,
                            [&](const DiagnosedSeries& one) { return series_json(one, diagnosis); });
   json["model"] = diagnosis.model ? data::to_json(*diagnosis.model) : Json(nullptr);

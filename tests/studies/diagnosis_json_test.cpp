@@ -108,6 +108,12 @@ TEST(DiagnosisJson, KeepsTheKeysOfALinearSpecimenAndSaysItsUnits) {
   EXPECT_EQ(json["holdout"]["rmse_before_nm"], 0.33);
   EXPECT_TRUE(json["next_experiment"]["amplitude_deg"].is_null());
   EXPECT_NEAR(json["next_experiment"]["amplitude"].get<double>(), 200.0 * kDegree, 1e-12);
+  const auto& parameters = json["causes"][0]["parameters"];
+  EXPECT_EQ(parameters[0]["unit"], "m");
+  EXPECT_EQ(parameters[0]["value"], 0.11 * kDegree);
+  EXPECT_EQ(parameters[1]["unit"], "N/m");
+  EXPECT_EQ(parameters[1]["value"], 800.0);
+  EXPECT_EQ(json["moved"][0]["unit"], "N s/m");
 }
 
 TEST(DiagnosisJson, WritesWhatWasNotComputedAsNull) {
