@@ -52,12 +52,14 @@ void say_undecided(const Frame& frame, Diagnosis& d) {
   d.notes.push_back(d.says);
 }
 
-Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgress& progress) {
+Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgress& progress,
+                            unsigned threads) {
   if (progress) progress(0.0, "smoothing the motions");
   const auto frame = make_frame(recordings, kMostRows);
   if (!frame) return tl::unexpected(frame.error());
   if (progress) progress(0.1, "fitting the baseline");
-  const Limits limits;
+  Limits limits;
+  limits.threads = threads;
   auto selection = select_causes(*frame, limits, progress);
   if (!selection) return tl::unexpected(selection.error());
   if (progress) progress(0.75, "proving on recordings held out");
@@ -111,9 +113,10 @@ std::string_view name_of(Verdict verdict) {
   return "unexplained";
 }
 
-Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress) {
+Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress,
+                           unsigned threads) {
   const auto start = std::chrono::steady_clock::now();
-  auto result = diagnosed(recordings, progress);
+  auto result = diagnosed(recordings, progress, threads);
   if (!result) return result;
   result->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress) progress(1.0, "done");

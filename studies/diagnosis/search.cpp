@@ -20,6 +20,7 @@ constexpr int kRefineSteps = 12;
 constexpr int kNoisePasses = 3;          // the noise is measured on a fit that it weights
 constexpr double kWorthRefining = 0.03;  // of the best first gain
 constexpr std::size_t kMostRefined = 24;
+constexpr unsigned kMostThreads = 8;
 
 // Equations whose fit a set of causes ties together, from those of one cause outward.
 std::vector<Equation> linked(const Frame& frame, const std::vector<ActiveCause>& causes,
@@ -235,20 +236,21 @@ Trial refined(const Frame& frame, const Findings& findings, const FirstLook& loo
   return trial;
 }
 
-// Runs one job per index on two threads; results stand in the order of the index.
+// Runs one job per index; results stand in the order of the index.
 template <class Job>
-void in_parallel(std::size_t count, const Job& job) {
+void in_parallel(std::size_t count, unsigned threads_wanted, const Job& job) {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < count; i = next++) job(i);
   };
-  const unsigned workers = std::min(std::max(1U, std::thread::hardware_concurrency()), 8U);
+  const unsigned found = std::min(std::max(1U, std::thread::hardware_concurrency()), kMostThreads);
+  const unsigned workers = threads_wanted > 0 ? threads_wanted : found;
   std::vector<std::jthread> threads;
   for (unsigned w = 1; w < workers; ++w) threads.emplace_back(work);
   work();
 }
 
-std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings) {
+std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings, unsigned threads) {
   std::vector<FirstLook> looks;
   for (const CauseRow& row : causes()) {
     const bool present = std::ranges::any_of(findings.fit.model.causes,
@@ -256,7 +258,7 @@ std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings)
     if (present) continue;
     for (const CauseForm* form : forms_on(row, frame)) looks.push_back({&row, form, {}, -1.0, 0});
   }
-  in_parallel(looks.size(), [&](std::size_t i) {
+  in_parallel(looks.size(), threads, [&](std::size_t i) {
     looks[i] = first_look(frame, findings, *looks[i].row, *looks[i].form);
   });
   return looks;
@@ -355,8 +357,8 @@ Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size
   return fit_part(frame, findings, whole, equations, steps);
 }
 
-std::vector<Trial> try_causes(const Frame& frame, const Findings& findings) {
-  auto looks = look_at_all(frame, findings);
+std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads) {
+  auto looks = look_at_all(frame, findings, threads);
   std::size_t tried = 0;
   for (const FirstLook& look : looks) tried += look.tried;
   std::ranges::stable_sort(looks, std::ranges::greater{}, &FirstLook::gain);
@@ -366,7 +368,8 @@ std::vector<Trial> try_causes(const Frame& frame, const Findings& findings) {
     ++worth;
   }
   std::vector<Trial> trials(worth);
-  in_parallel(worth, [&](std::size_t i) { trials[i] = refined(frame, findings, looks[i], tried); });
+  in_parallel(worth, threads,
+              [&](std::size_t i) { trials[i] = refined(frame, findings, looks[i], tried); });
   keep_best_of_each(trials);
   return trials;
 }

@@ -51,8 +51,9 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
 Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause,
                          int steps);
 
-/// Every cause that is not yet in the model, best net gain first; one entry a cause.
-std::vector<Trial> try_causes(const Frame& frame, const Findings& findings);
+/// Every cause that is not yet in the model, best net gain first; one entry a cause. The same for
+/// any number of threads; 0: as many as the machine has.
+std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads = 0);
 
 /// Misfit beyond noise, in chi square, summed over the equations.
 double excess(const Frame& frame, const Findings& findings, const ModelFit& fit);

@@ -71,7 +71,7 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
                     const std::function<void(double, std::string_view)>& progress) {
   for (int round = 0; round < limits.rounds; ++round) {
     if (progress) progress(0.2 + 0.07 * round, fmt::format("trying causes, round {}", round + 1));
-    auto trials = try_causes(frame, s.final);
+    auto trials = try_causes(frame, s.final, limits.threads);
     const auto best =
         std::ranges::find_if(trials, [&](const Trial& trial) { return admissible(trial, limits); });
     if (best == trials.end()) {

@@ -27,6 +27,7 @@ struct Limits {
   double held_out = 1.0;         ///< error on recordings held out with a cause over without it
   std::size_t causes = 4;        ///< more together are a stand-in for something without a name
   int rounds = 7;
+  unsigned threads = 0;  ///< 0: as many as the machine has
 };
 
 /// A cause that was accepted, with the others that did nearly as well.

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <mutex>
 #include <set>
+#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -123,11 +124,22 @@ Result<TrialSummary> TrialRun::operator()() {
   return summary_;
 }
 
+// The processors shared out among the cases that are diagnosed at once.
+Diagnose on_their_share(int jobs) {
+  const unsigned found = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned share = jobs > 0 ? found / static_cast<unsigned>(jobs) : 1U;
+  return [threads = std::max(1U, share)](const RecordingSet& recordings,
+                                         const DiagnosisProgress& progress) {
+    return diagnose(recordings, progress, threads);
+  };
+}
+
 }  // namespace
 
 Result<TrialSummary> run_trial(const TrialConfig& trial, const TrialSettings& settings,
                                const Diagnose& diagnose) {
-  return TrialRun(trial, settings, diagnose)();
+  if (diagnose) return TrialRun(trial, settings, diagnose)();
+  return TrialRun(trial, settings, on_their_share(settings.run.jobs))();
 }
 
 }  // namespace flexspline::studies

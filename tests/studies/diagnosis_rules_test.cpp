@@ -155,5 +155,19 @@ TEST(Forms, LateTorqueOfAJointThatTravelsIsTheMotionOfThen) {
   }
 }
 
+TEST(TryCauses, DoesNotDependOnTheNumberOfThreads) {
+  const Frame frame = drawn_frame(Rig::locked);
+  const auto baseline = fit_baseline(frame);
+  ASSERT_TRUE(baseline) << baseline.error().message();
+  const auto alone = try_causes(frame, *baseline, 1);
+  const auto together = try_causes(frame, *baseline, 3);
+  ASSERT_FALSE(alone.empty());
+  ASSERT_EQ(alone.size(), together.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(alone[i].cause.row, together[i].cause.row);
+    EXPECT_EQ(alone[i].gain, together[i].gain);
+  }
+}
+
 }  // namespace
 }  // namespace flexspline::studies

@@ -15,14 +15,14 @@ namespace {
 
 using studies::TrialScores;
 
-std::string rate_line(const TrialScores &scores, const char *name, const char *says) {
+std::string rate_line(const TrialScores& scores, const char* name, const char* says) {
   const studies::Proportion one = scores.rate(name);
   if (one.of == 0) return {};
   return fmt::format("  {:<34} {:>4} of {:<4} {:5.1f} %  (95 %: {:.1f} to {:.1f})\n", says,
                      one.count, one.of, 100.0 * one.rate(), 100.0 * one.lower, 100.0 * one.upper);
 }
 
-std::string summary_of(const TrialScores &scores) {
+std::string summary_of(const TrialScores& scores) {
   std::string text;
   text += rate_line(scores, "null_ok", "nothing hidden, called adequate");
   text += rate_line(scores, "single_top", "one effect, named first");
@@ -31,7 +31,7 @@ std::string summary_of(const TrialScores &scores) {
   text += rate_line(scores, "unknown_ok", "outside the catalogue, not named");
   text += rate_line(scores, "coord_ok", "right coordinate among three");
   text += rate_line(scores, "false_name", "cases with a false name");
-  const auto median = [&](const char *name, const char *says, const char *unit) {
+  const auto median = [&](const char* name, const char* says, const char* unit) {
     const double value = scores.median(name);
     if (value == value) text += fmt::format("  {:<34} {:.3g}{}\n", says, value, unit);
   };
@@ -42,7 +42,7 @@ std::string summary_of(const TrialScores &scores) {
   return text;
 }
 
-void show_progress(Console &console, const studies::Progress &progress) {
+void show_progress(Console& console, const studies::Progress& progress) {
   const std::string text = fmt::format("{}/{} cases, {} failed, {:.0f} s", progress.done,
                                        progress.total, progress.failed, progress.seconds);
   console.live(text);
@@ -50,14 +50,14 @@ void show_progress(Console &console, const studies::Progress &progress) {
   if (!console.is_terminal() && progress.done % tenth == 0) console.say(text);
 }
 
-studies::TrialSettings settings_of(const Arguments &arguments, long jobs, Console &console) {
+studies::TrialSettings settings_of(const Arguments& arguments, long jobs, Console& console) {
   studies::TrialSettings settings;
   settings.run.folder = arguments.text("out");
   settings.run.jobs = static_cast<int>(jobs);
   settings.run.build_id = build_id();
   settings.run.versions = versions();
   settings.run.stop = &stop_requested();
-  settings.run.progress = [&console](const studies::Progress &progress) {
+  settings.run.progress = [&console](const studies::Progress& progress) {
     show_progress(console, progress);
   };
   settings.run.log = [&console](std::string_view text) { console.detail(text); };
@@ -65,10 +65,10 @@ studies::TrialSettings settings_of(const Arguments &arguments, long jobs, Consol
   return settings;
 }
 
-Result<ExitCode> show(const studies::TrialSummary &summary, const std::filesystem::path &folder,
-                      Console &console) {
-  for (const std::string &one : summary.not_concealed) console.say("not concealed: " + one);
-  for (const std::string &one : summary.run.failed) console.error(one);
+Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesystem::path& folder,
+                      Console& console) {
+  for (const std::string& one : summary.not_concealed) console.say("not concealed: " + one);
+  for (const std::string& one : summary.run.failed) console.error(one);
   const auto page = reports::write_report(folder);
   if (!page) return tl::unexpected(page.error());
   const TrialScores scores = studies::score_trial(summary.cases);
@@ -81,8 +81,8 @@ Result<ExitCode> show(const studies::TrialSummary &summary, const std::filesyste
                                    {"failed", summary.run.failed},
                                    {"seconds", summary.run.seconds},
                                    {"scores", nlohmann::ordered_json::object()}};
-    for (const auto &[name, value] : scores.counters) text["scores"][name] = value;
-    for (const auto &[name, value] : scores.medians) text["scores"][name] = value;
+    for (const auto& [name, value] : scores.counters) text["scores"][name] = value;
+    for (const auto& [name, value] : scores.medians) text["scores"][name] = value;
     console.result(text.dump(2));
   } else {
     console.say(summary_of(scores));
@@ -91,7 +91,7 @@ Result<ExitCode> show(const studies::TrialSummary &summary, const std::filesyste
   return summary.run.failed.empty() && summary.not_concealed.empty() ? kDone : kSomethingFailed;
 }
 
-Result<ExitCode> run(const Arguments &arguments, Console &console) {
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const Result<long> jobs = jobs_of(arguments);
   if (!jobs) return tl::unexpected(jobs.error());
   const auto trial = studies::load_trial(arguments.text("study"));

@@ -145,7 +145,9 @@ using DiagnosisProgress = std::function<void(double, std::string_view)>;
 /// Locates where the baseline of the rig and the recordings differ, names what was left out, models
 /// it and proves it on recordings held out. It uses the recordings, the bench's constants and the
 /// catalogue of effects; no names, and nothing of the order in which recordings or columns stand.
+/// The result does not depend on the number of threads; 0: as many as the machine has.
 /// Errors: recordings that are not usable (data), numerics.
-Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress = {});
+Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress = {},
+                           unsigned threads = 0);
 
 }  // namespace flexspline::studies

@@ -141,9 +141,9 @@ struct TrialSummary {
 
 /// Runs what the folder does not yet hold: conceals each case, writes its commitment, has it
 /// diagnosed, unseals and scores it, and writes DIR/cases/<key>.json; then DIR/trial.json and
-/// DIR/tables, unless it was interrupted.
-/// Errors: cannot_write.
+/// DIR/tables, unless it was interrupted. Without `diagnose`: studies::diagnose, on the threads
+/// that the cases side by side leave to each. Errors: cannot_write.
 Result<TrialSummary> run_trial(const TrialConfig& trial, const TrialSettings& settings,
-                               const Diagnose& diagnose = studies::diagnose);
+                               const Diagnose& diagnose = {});
 
 }  // namespace flexspline::studies
