@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 
 #include "flexspline/core/law.hpp"
+#include "flexspline/estimators/bounded_least_squares.hpp"
 #include "flexspline/estimators/method.hpp"
 #include "presliding/slip_regression.hpp"
-#include "flexspline/estimators/bounded_least_squares.hpp"
 #include "uncertainty/bands.hpp"
 #include "uncertainty/covariance.hpp"
 #include "uncertainty/estimate_parts.hpp"

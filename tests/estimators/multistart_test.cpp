@@ -71,8 +71,8 @@ TEST(Multistart, TellsItsRateOfConvergence) {
 }
 
 TEST(Multistart, EndsOnceEnoughStartsAgree) {
-  const auto found = fit_ode_from_many(decay(0.01), OdeFitMethod::single_shooting, {},
-                                       {.starts = 8, .enough = 2});
+  const auto found =
+      fit_ode_from_many(decay(0.01), OdeFitMethod::single_shooting, {}, {.starts = 8, .enough = 2});
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_EQ(found->starts, 2);
   EXPECT_EQ(found->at_best, 2);
