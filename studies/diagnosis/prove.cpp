@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 namespace flexspline::studies {
@@ -18,6 +19,17 @@ constexpr double kReach = 1.05;  // of what was fitted: beyond it a law is extra
 bool marked(const Frame& frame) {
   return std::ranges::any_of(frame.segments,
                              [](const Segment& s) { return s.split == Split::holdout; });
+}
+
+// The cause that does worst on recordings held out, of those that would have shown there.
+std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
+    if (!(proof.cause_ratio[i] >= limits.held_out) || proof.cause_shown[i] < limits.named_gain)
+      continue;
+    if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;
+  }
+  return worst;
 }
 
 // What a law is fitted to has to reach as far as what it is judged on.
@@ -163,6 +175,9 @@ Result<void> prove_causes(const Frame& frame, const Selection& s, const Findings
     if (!without) return tl::unexpected(without.error());
     proof.cause_ratio.push_back(rms_on(final.fit.residual[e], rows) /
                                 rms_on(without->residual[e], rows));
+    const ArrayXd change = final.fit.prediction[e] - without->prediction[e];
+    const ArrayXd weight = weights_of(frame, final.noise[e].level) * rows;
+    proof.cause_shown.push_back((change * weight).square().sum() / final.noise[e].colour);
     const auto instead = placebo(frame, s, base, rows, e, rms_on(base.fit.residual[e], rows));
     proof.placebo_ratio.push_back(instead ? *instead : kNotComputed);
   }
@@ -246,11 +261,10 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
     auto proof = prove(frame, s);
     if (!proof) return proof;
-    const auto worst = std::ranges::max_element(proof->cause_ratio);
-    if (worst == proof->cause_ratio.end() || !(*worst >= limits.held_out)) return proof;
+    const auto worst = unconfirmed(*proof, limits);
+    if (!worst) return proof;
     const auto left_out =
-        leave_out(frame, limits, s, static_cast<std::size_t>(worst - proof->cause_ratio.begin()),
-                  "it does not lower the error on recordings held out");
+        leave_out(frame, limits, s, *worst, "it does not lower the error on recordings held out");
     if (!left_out) return tl::unexpected(left_out.error());
   }
 }
