@@ -15,15 +15,6 @@ void in_chunks(std::size_t directions, Take take) {
   }
 }
 
-void set_zero(Dual& x, double value, std::size_t width) {
-  x.value() = value;
-  x.derivatives().setZero(static_cast<Eigen::Index>(width));
-}
-
-void set_unit(Dual& x, std::size_t direction) {
-  x.derivatives()[static_cast<Eigen::Index>(direction)] = 1.0;
-}
-
 }  // namespace
 
 SystemDuals::SystemDuals(const OdeSystem& system, std::span<const double> p)
@@ -39,40 +30,40 @@ void SystemDuals::rate(double t, const double* y, double* ydot) const {
   system_.rate(t, std::span(y, states()), p_, std::span(ydot, states()));
 }
 
-void SystemDuals::load(const double* y, std::size_t width) {
-  for (std::size_t i = 0; i < states(); ++i) set_zero(states_[i], y[i], width);
-  for (std::size_t k = 0; k < parameters(); ++k) set_zero(parameters_[k], p_[k], width);
+void SystemDuals::load(const double* y) {
+  std::copy_n(y, states(), states_.begin());
+  std::copy(p_.begin(), p_.end(), parameters_.begin());
 }
 
-void SystemDuals::evaluate(double t, std::size_t width) {
+void SystemDuals::differentiate(double t, std::size_t first, Eigen::Map<Eigen::MatrixXd> out,
+                                std::size_t width) {
   system_.rate(t, std::span<const Dual>(states_), std::span<const Dual>(parameters_),
                std::span<Dual>(rates_));
-  for (Dual& rate : rates_) {  // a rate that is constant has no directions
-    if (rate.derivatives().size() == 0) set_zero(rate, rate.value(), width);
+  for (std::size_t i = 0; i < states(); ++i) {
+    for (std::size_t k = 0; k < width; ++k) {
+      out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(first + k)) =
+          rates_[i].slope(static_cast<int>(k));
+    }
   }
 }
 
 void SystemDuals::jacobian(double t, const double* y, Eigen::Map<Eigen::MatrixXd> out) {
   in_chunks(states(), [&](std::size_t first, std::size_t width) {
-    load(y, width);
-    for (std::size_t k = 0; k < width; ++k) set_unit(states_[first + k], k);
-    evaluate(t, width);
-    for (std::size_t i = 0; i < states(); ++i) {
-      out.block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(first), 1,
-                static_cast<Eigen::Index>(width)) = rates_[i].derivatives().transpose();
+    load(y);
+    for (std::size_t k = 0; k < width; ++k) {
+      states_[first + k] = Dual(y[first + k], static_cast<int>(width), static_cast<int>(k));
     }
+    differentiate(t, first, out, width);
   });
 }
 
 void SystemDuals::parameter_jacobian(double t, const double* y, Eigen::Map<Eigen::MatrixXd> out) {
   in_chunks(parameters(), [&](std::size_t first, std::size_t width) {
-    load(y, width);
-    for (std::size_t k = 0; k < width; ++k) set_unit(parameters_[first + k], k);
-    evaluate(t, width);
-    for (std::size_t i = 0; i < states(); ++i) {
-      out.block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(first), 1,
-                static_cast<Eigen::Index>(width)) = rates_[i].derivatives().transpose();
+    load(y);
+    for (std::size_t k = 0; k < width; ++k) {
+      parameters_[first + k] = Dual(p_[first + k], static_cast<int>(width), static_cast<int>(k));
     }
+    differentiate(t, first, out, width);
   });
 }
 
@@ -80,18 +71,19 @@ void SystemDuals::sensitivity_rate(double t, const double* z, double* zdot) {
   const std::size_t n = states();
   if (parameters() == 0) return rate(t, z, zdot);
   in_chunks(parameters(), [&](std::size_t first, std::size_t width) {
-    load(z, width);
+    load(z);
+    for (Dual& state : states_) state = Dual(state.value(), static_cast<int>(width));
     for (std::size_t k = 0; k < width; ++k) {
-      set_unit(parameters_[first + k], k);
+      parameters_[first + k] = Dual(p_[first + k], static_cast<int>(width), static_cast<int>(k));
       const double* column = z + n * (1 + first + k);
-      const auto direction = static_cast<Eigen::Index>(k);
-      for (std::size_t i = 0; i < n; ++i) states_[i].derivatives()[direction] = column[i];
+      for (std::size_t i = 0; i < n; ++i) states_[i].slopes()[k] = column[i];
     }
-    evaluate(t, width);
+    system_.rate(t, std::span<const Dual>(states_), std::span<const Dual>(parameters_),
+                 std::span<Dual>(rates_));
     for (std::size_t i = 0; i < n; ++i) {
       zdot[i] = rates_[i].value();
       for (std::size_t k = 0; k < width; ++k) {
-        zdot[n * (1 + first + k) + i] = rates_[i].derivatives()[static_cast<Eigen::Index>(k)];
+        zdot[n * (1 + first + k) + i] = rates_[i].slope(static_cast<int>(k));
       }
     }
   });

@@ -25,10 +25,10 @@ class SystemDuals {
   void parameter_jacobian(double t, const double* y, Eigen::Map<Eigen::MatrixXd> out);
 
  private:
-  // Values in, with `width` directions that are all zero.
-  void load(const double* y, std::size_t width);
-  // The system's duals, with `width` directions each.
-  void evaluate(double t, std::size_t width);
+  void load(const double* y);
+  // The columns of `out` from `first` on: the rates' derivatives along the duals' directions.
+  void differentiate(double t, std::size_t first, Eigen::Map<Eigen::MatrixXd> out,
+                     std::size_t width);
 
   const OdeSystem& system_;
   std::span<const double> p_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "certified/dual.hpp"
+#include "flexspline/core/scalar.hpp"
 #include "solvers/least_squares.hpp"
 
 namespace flexspline::estimators::certified {
@@ -22,18 +22,17 @@ class ModelResiduals final : public LeastSquaresProblem {
   Result<void> evaluate(std::size_t, std::span<const double> p, std::span<double> residual,
                         std::span<double> jacobian) const override {
     constexpr std::size_t kCount = Model::kParameters;
-    std::array<Dual<kCount>, kCount> b;
+    std::array<Dual, kCount> b;
     for (std::size_t k = 0; k < kCount; ++k) {
-      b[k] = p[k];
-      b[k].slope[k] = 1.0;
+      b[k] = Dual(p[k], static_cast<int>(kCount), static_cast<int>(k));
     }
     for (std::size_t i = 0; i < residual.size(); ++i) {
-      const Dual<kCount> r = model_.residual(i, b);
-      residual[i] = r.value;
-      bool finite = std::isfinite(r.value);
+      const Dual r = model_.residual(i, b);
+      residual[i] = r.value();
+      bool finite = std::isfinite(r.value());
       for (std::size_t k = 0; k < kCount && !jacobian.empty(); ++k) {
-        jacobian[i * kCount + k] = r.slope[k];
-        finite = finite && std::isfinite(r.slope[k]);
+        jacobian[i * kCount + k] = r.slope(static_cast<int>(k));
+        finite = finite && std::isfinite(r.slope(static_cast<int>(k)));
       }
       if (!finite) return tl::unexpected(not_a_number(p));
     }

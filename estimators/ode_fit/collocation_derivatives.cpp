@@ -63,18 +63,17 @@ void CollocationNlp::add_rate_jacobian(std::span<const double> x, std::size_t no
   std::vector<Dual> rate(states_);
   for (std::size_t first = 0; first < z.size(); first += kWidth) {
     const std::size_t width = std::min(kWidth, z.size() - first);
-    std::vector<Dual> dual(z.size());
-    for (std::size_t a = 0; a < z.size(); ++a) {
-      dual[a].value() = z[a];
-      dual[a].derivatives().setZero(index(width));
-      if (a >= first && a < first + width) dual[a].derivatives()[index(a - first)] = 1.0;
+    std::vector<Dual> dual(z.begin(), z.end());
+    for (std::size_t k = 0; k < width; ++k) {
+      dual[first + k] = Dual(z[first + k], static_cast<int>(width), static_cast<int>(k));
     }
     system_.rate(nodes_[node].time, std::span<const Dual>(dual).first(states_),
                  std::span<const Dual>(dual).subspan(states_), std::span(rate));
     for (std::size_t i = 0; i < states_; ++i) {
-      if (rate[i].derivatives().size() == 0) continue;
-      derivative.row(index(i)).segment(index(first), index(width)) -=
-          nodes_[node].width * rate[i].derivatives().transpose();
+      for (std::size_t k = 0; k < width; ++k) {
+        derivative(index(i), index(first + k)) -=
+            nodes_[node].width * rate[i].slope(static_cast<int>(k));
+      }
     }
   }
 }

@@ -116,18 +116,13 @@ class EquationError final : public LeastSquaresProblem {
     for (std::size_t first = 0; first < p.size(); first += kWidth) {
       const std::size_t width = std::min(kWidth, p.size() - first);
       std::vector<Dual> dual(p.begin(), p.end());
-      for (std::size_t k = 0; k < p.size(); ++k) {
-        dual[k].derivatives().setZero(static_cast<Eigen::Index>(width));
-        if (k >= first && k < first + width) {
-          dual[k].derivatives()[static_cast<Eigen::Index>(k - first)] = 1.0;
-        }
+      for (std::size_t k = 0; k < width; ++k) {
+        dual[first + k] = Dual(p[first + k], static_cast<int>(width), static_cast<int>(k));
       }
       system_.rate(t, std::span<const Dual>(state), std::span<const Dual>(dual), std::span(rate));
       for (std::size_t i = 0; i < y.size(); ++i) {
         for (std::size_t k = 0; k < width; ++k) {
-          const auto& slope = rate[i].derivatives();
-          jacobian[i * p.size() + first + k] =
-              slope.size() > 0 ? slope[static_cast<Eigen::Index>(k)] / unit_[i] : 0.0;
+          jacobian[i * p.size() + first + k] = rate[i].slope(static_cast<int>(k)) / unit_[i];
         }
       }
     }

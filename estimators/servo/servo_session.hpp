@@ -32,12 +32,10 @@ class ServoSession final : public OdeSystem {
             std::span<Dual> ydot) const override {
     rig_->rate(t, y, whole<Dual>(p), ydot);
   }
-  /// The rig's parameter vector at unknowns. What is known carries a gradient of zeros: effects add
-  /// products of parameters, and such a sum loses its gradient where one of them has none.
+  /// The rig's parameter vector at unknowns.
   template <class S>
   std::vector<S> whole(std::span<const S> p) const {
-    std::vector<S> values;
-    for (const double known : base_) values.push_back(constant_like(known, p));
+    std::vector<S> values(base_.begin(), base_.end());
     for (std::size_t k = 0; k < targets_.size(); ++k) {
       for (std::size_t at : targets_[k]) values[at] = p[k];
     }
@@ -45,13 +43,6 @@ class ServoSession final : public OdeSystem {
   }
 
  private:
-  static double constant_like(double value, std::span<const double>) { return value; }
-  static Dual constant_like(double value, std::span<const Dual> p) {
-    Eigen::Index size = 0;
-    for (const Dual& one : p) size = std::max(size, one.derivatives().size());
-    return Dual(value, Dual::DerType::Zero(size));
-  }
-
   std::unique_ptr<RigSystem> rig_;
   std::vector<double> base_;
   std::vector<std::vector<std::size_t>> targets_;

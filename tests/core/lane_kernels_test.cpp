@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "flexspline/core/lane_kernels.hpp"
@@ -113,15 +114,16 @@ Reference stepped(const Records& records, int lane) {
       const double t = (n + static_cast<double>(part) / kParts) * records.step(lane);
       const double middle = records.torque_at(lane, t + 0.5 * h);
       const Dual k1 = law.rate(p, records.torque_at(lane, t), x);
-      const Dual k2 = law.rate(p, middle, Dual(x + 0.5 * h * k1));
-      const Dual k3 = law.rate(p, middle, Dual(x + 0.5 * h * k2));
-      const Dual k4 = law.rate(p, records.torque_at(lane, t + h), Dual(x + h * k3));
-      x = Dual(x + h / 6.0 * Dual(Dual(k1 + 2.0 * k2) + Dual(2.0 * k3 + k4)));
+      const Dual k2 = law.rate(p, middle, x + 0.5 * h * k1);
+      const Dual k3 = law.rate(p, middle, x + 0.5 * h * k2);
+      const Dual k4 = law.rate(p, records.torque_at(lane, t + h), x + h * k3);
+      x = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
     }
     result.state.push_back(x.value());
     Eigen::VectorXd row(directions + 1);
     const double measured = records.measured[static_cast<std::size_t>(n * records.lanes + lane)];
-    row << x.derivatives(), x.value() - measured;
+    for (int k = 0; k < directions; ++k) row[k] = x.slope(k);
+    row[directions] = x.value() - measured;
     row *= records.weight[at];
     result.normal += row * row.transpose();
   }

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "certified/dual.hpp"
 #include "certified/nist_data.hpp"
 #include "flexspline/estimators/certified.hpp"
 #include "solvers/least_squares.hpp"

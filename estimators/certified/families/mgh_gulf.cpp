@@ -18,8 +18,8 @@ struct Model {
   S residual(std::size_t i, const std::array<S, kParameters>& x) const {
     const double t = static_cast<double>(i + 1) / 100.0;
     const S distance = 25.0 + std::pow(-50.0 * std::log(t), 2.0 / 3.0) - x[1];
-    const S magnitude = distance.value < 0.0 ? -distance : distance;
-    if (magnitude.value == 0.0) return S(1.0 - t);  // where log has no value but the power has
+    const S magnitude = flexspline::magnitude(distance);
+    if (real_part(magnitude) == 0.0) return S(1.0 - t);  // where log has no value but the power has
     return exp(-pow(magnitude, x[2]) / x[0]) - t;
   }
 };

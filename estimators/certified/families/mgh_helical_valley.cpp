@@ -16,7 +16,7 @@ struct Model {
   S residual(std::size_t i, const std::array<S, kParameters>& x) const {
     if (i == 2) return x[2];
     if (i == 1) return 10.0 * (sqrt(x[0] * x[0] + x[1] * x[1]) - 1.0);
-    const S turns = atan(x[1] / x[0]) / 6.283185307179586 + (x[0].value < 0.0 ? 0.5 : 0.0);
+    const S turns = atan(x[1] / x[0]) / 6.283185307179586 + (real_part(x[0]) < 0.0 ? 0.5 : 0.0);
     return 10.0 * (x[2] - 10.0 * turns);
   }
 };

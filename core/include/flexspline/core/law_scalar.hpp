@@ -32,27 +32,17 @@ inline Complex evaluate(const Law& law, const Complex& x, std::span<const Comple
   return {law.value(x.real()), imaginary};
 }
 
-/// value's derivatives += weight * those of d.
-inline void add_derivatives(Dual& value, double weight, const Dual& d) {
-  if (d.derivatives().size() == 0) return;
-  if (value.derivatives().size() == 0) {
-    value.derivatives() = weight * d.derivatives();
-  } else {
-    value.derivatives() += weight * d.derivatives();
-  }
-}
-
 inline Dual evaluate(const Law& law, const Dual& x, std::span<const Dual> coefficients) {
-  Dual y(law.value(x.value()));
-  if (x.derivatives().size() > 0) add_derivatives(y, law.slope(x.value()), x);
+  const double value = law.value(x.value());
+  Dual y = x.directions() > 0 ? Dual::chain(x, value, law.slope(x.value())) : Dual(value);
   bool moved = false;
-  for (const Dual& c : coefficients) moved = moved || c.derivatives().size() > 0;
+  for (const Dual& c : coefficients) moved = moved || c.directions() > 0;
   if (!moved) return y;
   expects(coefficients.size() <= kMostCoefficients, "a law has at most 128 coefficients");
   std::array<double, kMostCoefficients> gradient{};
   law.gradient(x.value(), std::span(gradient).first(coefficients.size()));
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
-    add_derivatives(y, gradient[k], coefficients[k]);
+    y = Dual::chain(y, coefficients[k], value, 1.0, gradient[k]);
   }
   return y;
 }

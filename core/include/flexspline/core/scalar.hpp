@@ -3,16 +3,10 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
+#include "flexspline/core/dual.hpp"
 
 namespace flexspline {
 
-/// Most directions that a Dual differentiates in.
-inline constexpr int kMostDirections = 32;
-
-/// A number with its gradient, for derivatives by the law itself. No heap.
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostDirections, 1>>;
 /// For the complex step, which checks derivatives to rounding.
 using Complex = std::complex<double>;
 
@@ -21,26 +15,30 @@ using Complex = std::complex<double>;
 
 inline double real_part(double x) { return x; }
 inline double real_part(const Complex& x) { return x.real(); }
-inline double real_part(const Dual& x) { return x.value(); }
 
 /// |x|; its derivative at 0 is that from the right.
 template <class S>
 S magnitude(const S& x) {
-  return real_part(x) < 0.0 ? S(-x) : x;
+  return real_part(x) < 0.0 ? -x : x;
+}
+
+template <class S>
+S square(const S& x) {
+  return x * x;
 }
 
 /// tanh(x / width): a sign that is smooth over `width`.
 template <class S>
 S smooth_sign(const S& x, const S& width) {
   using std::tanh;
-  return S(tanh(S(x / width)));
+  return tanh(x / width);
 }
 
 /// sqrt(x^2 + width^2) - width: a magnitude that is smooth over `width` and 0 at 0.
 template <class S>
 S smooth_magnitude(const S& x, const S& width) {
   using std::sqrt;
-  return S(S(sqrt(S(x * x + width * width))) - width);
+  return sqrt(square(x) + square(width)) - width;
 }
 
 /// x^n for x > 0 and 0 at x <= 0; n may be a parameter.
@@ -48,15 +46,15 @@ template <class S>
 S positive_power(const S& x, const S& n) {
   using std::exp;
   using std::log;
-  if (!(real_part(x) > 0.0)) return S(0.0);
-  return S(exp(S(n * S(log(x)))));
+  if (!(real_part(x) > 0.0)) return 0.0;
+  return exp(n * log(x));
 }
 
 /// x limited to [-bound, bound].
 template <class S>
 S limited(const S& x, const S& bound) {
   if (real_part(x) > real_part(bound)) return bound;
-  if (real_part(x) < -real_part(bound)) return S(-bound);
+  if (real_part(x) < -real_part(bound)) return -bound;
   return x;
 }
 
@@ -72,34 +70,33 @@ S stop_rate(const S& stop, const S& input_rate, const S& yield) {
 template <class S>
 S smooth_step(const S& x, const S& width) {
   using std::sqrt;
-  const S root(sqrt(S(x * x + width * width)));
-  const S tail(S(width * width) / S(S(2.0 * root) * S(root + magnitude(x))));
-  return real_part(x) < 0.0 ? tail : S(1.0 - tail);
+  const S root = sqrt(square(x) + square(width));
+  const S tail = square(width) / (2.0 * root * (root + magnitude(x)));
+  return real_part(x) < 0.0 ? tail : 1.0 - tail;
 }
 
 /// exp(-(x / width)^2): the share of a Stribeck peak that is left at speed x.
 template <class S>
 S bell(const S& x, const S& width) {
   using std::exp;
-  const S ratio(x / width);
-  return S(exp(S(-ratio * ratio)));
+  return exp(-square(x / width));
 }
 
 /// 1 - exp(-x) for x >= 0, to rounding at small x too: the share of a relaxation done.
 template <class S>
 S relaxed(const S& x) {
   using std::tanh;
-  const S half(tanh(S(0.5 * x)));
-  return S(S(2.0 * half) / S(1.0 + half));
+  const S half = tanh(0.5 * x);
+  return 2.0 * half / (1.0 + half);
 }
 
 /// (1 - exp(-x)) / x for x >= 0, 1 at 0: the mean over a step of what a relaxation has left. A
 /// polynomial near 0, where the quotient's derivative would cancel.
 template <class S>
 S mean_left(const S& x) {
-  if (std::abs(real_part(x)) > 0.01) return S(relaxed(x) / x);
-  S sum(1.0);
-  for (double n = 7.0; n > 1.0; n -= 1.0) sum = S(1.0 - S(x / n) * sum);
+  if (std::abs(real_part(x)) > 0.01) return relaxed(x) / x;
+  S sum = 1.0;
+  for (double n = 7.0; n > 1.0; n -= 1.0) sum = 1.0 - x / n * sum;
   return sum;
 }
 
