@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include "flexspline/estimators/method.hpp"
@@ -11,11 +12,12 @@ MethodRow describe_torque_driven();
 namespace {
 
 Result<DrivenFit> fit_by(const std::string& backend, const DrivenProblem& problem,
-                         const DrivenSettings& settings) {
+                         const DrivenSettings& settings, Crew& crew) {
   std::vector<double> start = driven_start(problem);
-  if (backend == "cvodes") return fit_by_cvodes(problem, std::move(start), settings);
-  if (backend == "collocation") return fit_by_collocation(problem, std::move(start), settings);
-  return fit_by_kernels(problem, std::move(start), settings);
+  if (backend == "cvodes") return fit_by_cvodes(problem, std::move(start), settings, crew);
+  if (backend == "collocation")
+    return fit_by_collocation(problem, std::move(start), settings, crew);
+  return fit_by_kernels(problem, std::move(start), settings, crew);
 }
 
 Result<Estimate> fit(const FitProblem& given) {
@@ -24,15 +26,16 @@ Result<Estimate> fit(const FitProblem& given) {
   const auto whole = [&](std::string_view name) {
     return static_cast<int>(number(given, method, name));
   };
+  const ProcessorShare share(whole("threads"));
+  Crew crew(std::min(share.threads(), static_cast<int>(given.records.size())));
   const auto problem = driven_problem(
       given.records, whole("f_terms"), whole("g_terms"), whole("h_terms"),
-      word(given, method, "initial") == "rest" ? InitialMotion::rest : InitialMotion::measured);
+      word(given, method, "initial") == "rest" ? InitialMotion::rest : InitialMotion::measured,
+      crew);
   if (!problem) return tl::unexpected(problem.error());
-  const ProcessorShare share(whole("threads"));
   const DrivenSettings settings{.tolerance = number(given, method, "tolerance"),
-                                .max_iterations = whole("iterations"),
-                                .threads = share.threads()};
-  const auto found = fit_by(word(given, method, "backend"), *problem, settings);
+                                .max_iterations = whole("iterations")};
+  const auto found = fit_by(word(given, method, "backend"), *problem, settings, crew);
   if (!found) return tl::unexpected(found.error());
   auto estimate = driven_estimate(*problem, *found, given.records.front().linear);
   if (!estimate) return estimate;

@@ -27,8 +27,7 @@ double cost_of_nothing(const DrivenProblem& problem) {
 // Warm start: coefficients after a few steps of shooting, with the trajectory that they give. What
 // the mesh cannot follow is foreseen there, and looked for again at the solution.
 Result<DrivenFit> fit_by_collocation(const DrivenProblem& problem, std::vector<double> p,
-                                     const DrivenSettings& settings) {
-  Crew crew(std::min(settings.threads, static_cast<int>(problem.series.size())));
+                                     const DrivenSettings& settings, Crew& crew) {
   IntegrationPlan plan(problem, p, settings.instructions, crew);
   DrivenFit fit{.p = std::move(p), .at = {}};
   NlpSettings nlp_settings{.tolerance = 1e-9, .max_iterations = settings.max_iterations};

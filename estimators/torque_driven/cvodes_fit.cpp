@@ -40,8 +40,7 @@ Sums sums_of(const DrivenProblem& problem, const DrivenSeries& one, std::span<co
 }  // namespace
 
 DrivenFit fit_by_cvodes(const DrivenProblem& problem, std::vector<double> p,
-                        const DrivenSettings& settings) {
-  Crew crew(std::min(settings.threads, static_cast<int>(problem.series.size())));
+                        const DrivenSettings& settings, Crew& crew) {
   DrivenFit fit{.p = std::move(p), .at = {}};
   const auto n = static_cast<Eigen::Index>(problem.size());
   std::vector<Sums> sums(problem.series.size());

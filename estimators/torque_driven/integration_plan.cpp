@@ -84,19 +84,11 @@ std::vector<std::vector<double>> IntegrationPlan::states(std::span<const double>
 }
 
 Refinement IntegrationPlan::refine(std::span<const double> p, double tolerance) {
-  std::vector<LanePlan> finer = plans_;
-  for (LanePlan& plan : finer) plan.parts *= 2;
-  const auto coarse = set_->states(p);
-  const auto fine = LaneSet(problem_, finer, instructions_, crew_).states(p);
+  const std::vector<double> change = set_->change_by_half_steps(p);
   Refinement found;
   for (std::size_t s = 0; s < plans_.size(); ++s) {
     const double order = order_of(plans_[s].formula);
-    double error = 0.0;
-    for (std::size_t n = 0; n < coarse[s].size(); ++n) {
-      const double weight = problem_.series[s].weight[n + 1];
-      error = std::max(error, weight * std::abs(coarse[s][n] - fine[s][n]));
-    }
-    error /= 1.0 - std::pow(2.0, -order);
+    const double error = change[s] / (1.0 - std::pow(2.0, -order));
     found.error = std::max(found.error, error);
     if (!(error > tolerance) || plans_[s].parts >= kMostParts) continue;
     const double growth =

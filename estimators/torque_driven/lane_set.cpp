@@ -172,6 +172,10 @@ const LaneSums& LaneSet::sums(std::span<const double> p) {
   return sums_;
 }
 
+void LaneSet::integrate(const Packed& packed, std::span<const double> p) const {
+  packed.kernel(laws(p), packed.block, {nullptr, packed.stiffness, packed.state});
+}
+
 std::vector<std::vector<double>> LaneSet::states(std::span<const double> p) {
   const bool known = std::ranges::equal(p, states_at_);
   std::vector<std::vector<double>> result(problem_.series.size());
@@ -179,7 +183,7 @@ std::vector<std::vector<double>> LaneSet::states(std::span<const double> p) {
   crew_.run(blocks_.size(), [&](std::size_t b) {
     Packed& packed = blocks_[b];
     const auto lanes = static_cast<std::size_t>(packed.block.lanes);
-    if (!known) packed.kernel(laws(p), packed.block, {nullptr, packed.stiffness, packed.state});
+    if (!known) integrate(packed, p);
     for (std::size_t lane = 0; lane < packed.series.size(); ++lane) {
       auto& out = result[packed.series[lane]];
       for (std::size_t n = 0; n < out.size(); ++n) out[n] = packed.state[n * lanes + lane];
@@ -187,6 +191,36 @@ std::vector<std::vector<double>> LaneSet::states(std::span<const double> p) {
   });
   states_at_.assign(p.begin(), p.end());
   return result;
+}
+
+// Block by block: one is packed anew, integrated and compared while it is in the cache.
+std::vector<double> LaneSet::change_by_half_steps(std::span<const double> p) {
+  const bool known = std::ranges::equal(p, states_at_);
+  std::vector<double> change(problem_.series.size());
+  crew_.run(blocks_.size(), [&](std::size_t b) {
+    const Packed& packed = blocks_[b];
+    if (!known) integrate(packed, p);
+    Packed finer;
+    finer.series = packed.series;
+    finer.plan = {packed.plan.formula, 2 * packed.plan.parts};
+    finer.kernel = packed.kernel;
+    finer.block.lanes = packed.block.lanes;
+    pack(finer);
+    integrate(finer, p);
+    const auto lanes = static_cast<std::size_t>(packed.block.lanes);
+    for (std::size_t lane = 0; lane < packed.series.size(); ++lane) {
+      const DrivenSeries& one = problem_.series[packed.series[lane]];
+      double largest = 0.0;
+      for (std::size_t n = 0; n < one.intervals(); ++n) {
+        const std::size_t at = n * lanes + lane;
+        largest =
+            std::max(largest, one.weight[n + 1] * std::abs(packed.state[at] - finer.state[at]));
+      }
+      change[packed.series[lane]] = largest;
+    }
+  });
+  states_at_.assign(p.begin(), p.end());
+  return change;
 }
 
 }  // namespace flexspline::estimators

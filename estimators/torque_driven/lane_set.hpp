@@ -35,6 +35,9 @@ class LaneSet {
   const LaneSums& sums(std::span<const double> p);
   /// Motion of every recording at its samples after the first; what the sums at the same p came by.
   std::vector<std::vector<double>> states(std::span<const double> p);
+  /// [recording] the largest difference of those states from ones with half the steps, weighted; 0
+  /// where either is no number.
+  std::vector<double> change_by_half_steps(std::span<const double> p);
 
  private:
   struct Alignment {
@@ -59,6 +62,7 @@ class LaneSet {
   void fill_lane(const Packed& packed, std::size_t lane, double* torque, double* width,
                  double* measured, double* weight) const;
   LaneLaws laws(std::span<const double> p) const;
+  void integrate(const Packed& packed, std::span<const double> p) const;
 
   const DrivenProblem& problem_;
   Crew& crew_;

@@ -148,24 +148,33 @@ std::size_t DrivenProblem::residuals() const {
 }
 
 Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, int f, int g, int h,
-                                     InitialMotion initial) {
+                                     InitialMotion initial, Crew& crew) {
   DrivenProblem problem{
       .motion_scale = 0.0, .torque_scale = 0.0, .f = f, .g = g, .h = h, .series = {}};
   if (records.empty()) {
     return failure(ErrorCode::bad_data, "there is no recording to train on",
                    "mark one with split = \"train\"");
   }
-  std::vector<double> motions;
-  for (const auto& record : records) {
-    if (auto checked = check(record); !checked) return tl::unexpected(checked.error());
-    motions.push_back(largest_valid(record, record.motion));
-    problem.motion_scale = std::max(problem.motion_scale, motions.back());
-    problem.torque_scale = std::max(problem.torque_scale, largest_valid(record, record.effort));
+  const std::size_t count = records.size();
+  std::vector<Result<void>> checked(count);
+  std::vector<double> motions(count);
+  std::vector<double> torques(count);
+  crew.run(count, [&](std::size_t i) {
+    checked[i] = check(records[i]);
+    if (!checked[i]) return;
+    motions[i] = largest_valid(records[i], records[i].motion);
+    torques[i] = largest_valid(records[i], records[i].effort);
+  });
+  for (const auto& one : checked) {
+    if (!one) return tl::unexpected(one.error());
   }
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    problem.series.push_back(
-        series_of(records[i], motions[i], problem.motion_scale, problem.torque_scale, initial));
-  }
+  problem.motion_scale = std::ranges::max(motions);
+  problem.torque_scale = std::ranges::max(torques);
+  problem.series.resize(count);
+  crew.run(count, [&](std::size_t i) {
+    problem.series[i] =
+        series_of(records[i], motions[i], problem.motion_scale, problem.torque_scale, initial);
+  });
   if (problem.residuals() <= problem.size()) {
     return failure(
         ErrorCode::bad_data,

@@ -15,8 +15,9 @@ namespace {
 using namespace estimators;
 
 const DrivenProblem& base() {
+  Crew alone(1);
   static const DrivenProblem problem =
-      *driven_problem(base_records(), 3, 3, 2, InitialMotion::rest);
+      *driven_problem(base_records(), 3, 3, 2, InitialMotion::rest, alone);
   return problem;
 }
 
@@ -42,9 +43,9 @@ BENCHMARK(gradient)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond
 // How J'J grows: loops (steps squared), samples a loop, coefficients. One thread.
 void growth(benchmark::State& state) {
   const auto at = [&state](std::size_t k) { return static_cast<int>(state.range(k)); };
-  const auto problem =
-      *driven_problem(base_records(at(0), at(1)), at(2), at(2), at(3), InitialMotion::rest);
   Crew crew(1);
+  const auto problem =
+      *driven_problem(base_records(at(0), at(1)), at(2), at(2), at(3), InitialMotion::rest, crew);
   const auto p = driven_start(problem);
   IntegrationPlan plan(problem, p, best_instruction_set(), crew);
   for (auto _ : state) benchmark::DoNotOptimize(plan.stable_sums(p).normal.front());

@@ -1,5 +1,5 @@
-// Every effect in every rig: the Jacobians of the equations of motion by duals, where the inputs and
-// whatever is not differentiated are constants, against central differences.
+// Every effect in every rig: the Jacobians of the equations of motion by duals, where the inputs
+// and whatever is not differentiated are constants, against central differences.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -25,9 +25,7 @@ std::vector<Form> forms() {
   return all;
 }
 
-std::string name_of(const Form& form) {
-  return std::string(rig_row(form.rig).id) + "_" + form.id;
-}
+std::string name_of(const Form& form) { return std::string(rig_row(form.rig).id) + "_" + form.id; }
 
 /// Every channel that a form may ask for, of a usual size.
 RigInputs every_input(const Form& form) {
@@ -51,8 +49,8 @@ std::vector<double> rates(const RigSystem& rig, double t, const std::vector<doub
 }
 
 /// Central difference of fourth order.
-std::vector<double> difference(const RigSystem& rig, double t, std::vector<double> z,
-                               std::size_t k, double step) {
+std::vector<double> difference(const RigSystem& rig, double t, std::vector<double> z, std::size_t k,
+                               double step) {
   const double at = z[k];
   std::vector<double> sum(rig.states());
   const double weights[] = {8.0, -8.0, -1.0, 1.0};
@@ -103,8 +101,7 @@ class EveryEffectInEveryRig : public testing::TestWithParam<Form> {
     SystemDuals duals(rig, p);
     duals.jacobian(t, z.data(), Eigen::Map<Eigen::MatrixXd>(exact.data(), n, n));
     duals.parameter_jacobian(
-        t, z.data(),
-        Eigen::Map<Eigen::MatrixXd>(exact.data() + n * n, n, exact.cols() - n));
+        t, z.data(), Eigen::Map<Eigen::MatrixXd>(exact.data() + n * n, n, exact.cols() - n));
     z.insert(z.end(), p.begin(), p.end());
     const auto now = rates(rig, t, z);
     for (std::size_t k = 0; k < z.size(); ++k) {

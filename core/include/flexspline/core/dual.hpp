@@ -15,9 +15,10 @@ namespace flexspline {
 /// Most directions that a Dual differentiates in.
 inline constexpr int kMostDirections = 32;
 
-/// A number with its derivatives along some directions, exact to rounding; no heap. A constant has no
-/// directions and mixes with any dual; two duals with directions have equally many. Every operation
-/// is done at once: there are no expressions to outlive their operands or to disagree in length.
+/// A number with its derivatives along some directions, exact to rounding; no heap. A constant has
+/// no directions and mixes with any dual; two duals with directions have equally many. Every
+/// operation is done at once: there are no expressions to outlive their operands or to disagree in
+/// length.
 class Dual {
  public:
   Dual(double constant = 0.0) : value_(constant) {}  // NOLINT: constants mix with duals
@@ -43,9 +44,7 @@ class Dual {
   double value() const { return value_; }
   int directions() const { return directions_; }
   /// Derivatives, one a direction; empty for a constant.
-  std::span<const double> slopes() const {
-    return {slope_, static_cast<std::size_t>(directions_)};
-  }
+  std::span<const double> slopes() const { return {slope_, static_cast<std::size_t>(directions_)}; }
   std::span<double> slopes() { return {slope_, static_cast<std::size_t>(directions_)}; }
   /// The derivative along direction k, 0 for a constant.
   double slope(int k) const { return directions_ > 0 ? slope_[k] : 0.0; }
@@ -102,13 +101,9 @@ class Dual {
     return chain(x, f, 0.5 / f);
   }
 
-  friend Dual sin(const Dual& x) {
-    return chain(x, std::sin(x.value_), std::cos(x.value_));
-  }
+  friend Dual sin(const Dual& x) { return chain(x, std::sin(x.value_), std::cos(x.value_)); }
 
-  friend Dual cos(const Dual& x) {
-    return chain(x, std::cos(x.value_), -std::sin(x.value_));
-  }
+  friend Dual cos(const Dual& x) { return chain(x, std::cos(x.value_), -std::sin(x.value_)); }
 
   friend Dual tanh(const Dual& x) {
     const double c = std::cosh(x.value_);  // 1 - tanh^2 would cancel in the tails
