@@ -37,7 +37,7 @@ Result<Estimate> fit(const FitProblem& given) {
                                 .max_iterations = whole("iterations")};
   const auto found = fit_by(word(given, method, "backend"), *problem, settings, crew);
   if (!found) return tl::unexpected(found.error());
-  auto estimate = driven_estimate(*problem, *found, given.records.front().linear);
+  auto estimate = driven_estimate(*problem, *found, given.records.front().linear, crew);
   if (!estimate) return estimate;
   estimate->seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -21,6 +21,12 @@ std::atomic<int>& running_fits() {
   return count;
 }
 
+// Asked once: the system reads a file for it.
+int processors() {
+  static const auto count = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return count;
+}
+
 }  // namespace
 
 Crew::Crew(int threads) {
@@ -78,8 +84,7 @@ void Crew::wait_for_work() {
 
 ProcessorShare::ProcessorShare(int wanted) {
   const int running = ++running_fits();
-  const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  threads_ = wanted > 0 ? wanted : std::max(1, processors / running);
+  threads_ = wanted > 0 ? wanted : std::max(1, processors() / running);
 }
 
 ProcessorShare::~ProcessorShare() { --running_fits(); }

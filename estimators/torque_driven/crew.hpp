@@ -19,6 +19,7 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
+  std::size_t size() const { return threads_.size() + 1; }
   /// work(0), ..., work(pieces - 1), each once, in no order; returns when all are done. The work
   /// throws nothing.
   void run(std::size_t pieces, const std::function<void(std::size_t)>& work);

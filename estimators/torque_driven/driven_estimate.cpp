@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -106,7 +107,7 @@ double highest_speed(const DrivenProblem& problem) {
 }
 
 Result<std::vector<FunctionBand>> bands_of(const DrivenProblem& problem, const ModelSpec& model,
-                                           const Eigen::MatrixXd& covariance) {
+                                           const Eigen::MatrixXd& covariance, Crew& crew) {
   const auto f = make_law(model.f);
   const auto g_inverse = make_law(model.g_inverse);
   const auto h = make_law(model.h);
@@ -118,18 +119,19 @@ Result<std::vector<FunctionBand>> bands_of(const DrivenProblem& problem, const M
   };
   const double s = problem.motion_scale;
   const double v = model.g_inverse.valid_to;
-  std::vector<FunctionBand> bands = {
-      law_band("f", **f, block(0, problem.f), -s, s),
-      law_band("g_inverse", **g_inverse, block(problem.f, problem.g), -v, v)};
-  if (problem.h > 0) {
-    bands.push_back(law_band("h", **h, block(problem.f + problem.g, problem.h), -s, s));
-  }
+  const std::function<FunctionBand()> makers[] = {
+      [&] { return law_band("f", **f, block(0, problem.f), -s, s); },
+      [&] { return law_band("g_inverse", **g_inverse, block(problem.f, problem.g), -v, v); },
+      [&] { return law_band("h", **h, block(problem.f + problem.g, problem.h), -s, s); }};
+  std::vector<FunctionBand> bands(problem.h > 0 ? 3 : 2);
+  crew.run(bands.size(), [&](std::size_t k) { bands[k] = makers[k](); });
   return bands;
 }
 
 }  // namespace
 
-Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& fit, bool linear) {
+Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& fit, bool linear,
+                                 Crew& crew) {
   if (fit.termination == Termination::failed || fit.termination == Termination::not_run) {
     return failure(ErrorCode::numerics,
                    "eq. (3) cannot be integrated with the values to start from",
@@ -153,7 +155,7 @@ Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& 
   estimate.estimator = "torque_driven";
   estimate.model = model_of(problem, si);
   estimate.model.g_inverse.valid_to = highest_speed(problem);
-  auto bands = bands_of(problem, estimate.model, covariance);
+  auto bands = bands_of(problem, estimate.model, covariance, crew);
   if (!bands) return tl::unexpected(bands.error());
   estimate.bands = std::move(*bands);
   estimate.termination = fit.termination;

@@ -7,6 +7,7 @@ namespace flexspline::estimators {
 /// What was found in SI units, with covariance (residuals taken as white, their size as found),
 /// bands and a verdict on identifiability.
 /// Errors: numerics, where the fit failed or left no law that could be made.
-Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& fit, bool linear);
+Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& fit, bool linear,
+                                 Crew& crew);
 
 }  // namespace flexspline::estimators

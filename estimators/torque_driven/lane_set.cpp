@@ -1,6 +1,7 @@
 #include "torque_driven/lane_set.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <new>
@@ -92,7 +93,10 @@ void LaneSet::pack(Packed& packed) const {
   const std::size_t width = block.width_stride == 0 ? 1 : rows;
   const std::size_t weight = block.weight_stride == 0 ? 1 : rows;
   const std::size_t total = torque + width + 2 * rows + weight + 2 + sums_.normal.size();
-  packed.memory.reset(new (kLine) double[total * lanes]);
+  if (packed.room < total * lanes) {
+    packed.memory.reset(new (kLine) double[total * lanes]);
+    packed.room = total * lanes;
+  }
   double* at = packed.memory.get();
   const auto next = [&](std::size_t count) { return std::exchange(at, at + count * lanes); };
   double* const torque_at = next(torque);
@@ -193,30 +197,36 @@ std::vector<std::vector<double>> LaneSet::states(std::span<const double> p) {
   return result;
 }
 
-// Block by block: one is packed anew, integrated and compared while it is in the cache.
+double LaneSet::largest_difference(const Packed& a, const Packed& b, std::size_t lane) const {
+  const DrivenSeries& one = problem_.series[a.series[lane]];
+  const auto lanes = static_cast<std::size_t>(a.block.lanes);
+  double largest = 0.0;
+  for (std::size_t n = 0; n < one.intervals(); ++n) {
+    const std::size_t at = n * lanes + lane;
+    largest = std::max(largest, one.weight[n + 1] * std::abs(a.state[at] - b.state[at]));
+  }
+  return largest;
+}
+
+// Block by block, in one memory a thread: packed anew, integrated and compared in the cache.
 std::vector<double> LaneSet::change_by_half_steps(std::span<const double> p) {
   const bool known = std::ranges::equal(p, states_at_);
   std::vector<double> change(problem_.series.size());
-  crew_.run(blocks_.size(), [&](std::size_t b) {
-    const Packed& packed = blocks_[b];
-    if (!known) integrate(packed, p);
+  std::atomic<std::size_t> next = 0;
+  crew_.run(crew_.size(), [&](std::size_t) {
     Packed finer;
-    finer.series = packed.series;
-    finer.plan = {packed.plan.formula, 2 * packed.plan.parts};
-    finer.kernel = packed.kernel;
-    finer.block.lanes = packed.block.lanes;
-    pack(finer);
-    integrate(finer, p);
-    const auto lanes = static_cast<std::size_t>(packed.block.lanes);
-    for (std::size_t lane = 0; lane < packed.series.size(); ++lane) {
-      const DrivenSeries& one = problem_.series[packed.series[lane]];
-      double largest = 0.0;
-      for (std::size_t n = 0; n < one.intervals(); ++n) {
-        const std::size_t at = n * lanes + lane;
-        largest =
-            std::max(largest, one.weight[n + 1] * std::abs(packed.state[at] - finer.state[at]));
+    for (std::size_t b = next++; b < blocks_.size(); b = next++) {
+      const Packed& packed = blocks_[b];
+      if (!known) integrate(packed, p);
+      finer.series = packed.series;
+      finer.plan = {packed.plan.formula, 2 * packed.plan.parts};
+      finer.kernel = packed.kernel;
+      finer.block = {.lanes = packed.block.lanes};
+      pack(finer);
+      integrate(finer, p);
+      for (std::size_t lane = 0; lane < packed.series.size(); ++lane) {
+        change[packed.series[lane]] = largest_difference(packed, finer, lane);
       }
-      change[packed.series[lane]] = largest;
     }
   });
   states_at_.assign(p.begin(), p.end());

@@ -51,6 +51,7 @@ class LaneSet {
     LaneKernel kernel = nullptr;
     LaneBlock block{};
     Memory memory{};
+    std::size_t room = 0;  // doubles in memory
     double* normal = nullptr;
     double* stiffness = nullptr;
     double* state = nullptr;
@@ -62,6 +63,8 @@ class LaneSet {
   void fill_lane(const Packed& packed, std::size_t lane, double* torque, double* width,
                  double* measured, double* weight) const;
   LaneLaws laws(std::span<const double> p) const;
+  // Of a lane's states, weighted.
+  double largest_difference(const Packed& a, const Packed& b, std::size_t lane) const;
   void integrate(const Packed& packed, std::span<const double> p) const;
 
   const DrivenProblem& problem_;

@@ -28,6 +28,9 @@ FunctionBand band_of(std::string function, const Law& law, double from, double t
   const double middle = 0.5 * (from + to);
   const double half = 0.5 * (to - from) * kBeyond;
   std::vector<double> gradient(law.spec().coefficients.size());
+  for (auto* column : {&band.argument, &band.value, &band.lower, &band.upper}) {
+    column->reserve(kPoints);
+  }
   for (int k = 0; k < kPoints; ++k) {
     const double x = middle + half * (2.0 * k / (kPoints - 1) - 1.0);
     const double value = law.value(x);
