@@ -10,19 +10,19 @@ namespace {
 struct Backlash {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(-lost(x.torsion, p[0], p[1]));
+    return -lost(x.torsion, p[0], p[1]);
   }
 
   template <class S>
   static S lost(const S& x, const S& b, const S& width) {
-    const S sum(rounded(S(x + b), width) + rounded(S(x - b), width));
-    return S(S(2.0 * S(x * b)) / sum);
+    const S sum = rounded(x + b, width) + rounded(x - b, width);
+    return 2.0 * (x * b) / sum;
   }
 
   template <class S>
   static S rounded(const S& x, const S& width) {
     using std::sqrt;
-    return S(sqrt(S(S(x * x) + S(width * width))));
+    return sqrt(x * x + width * width);
   }
 };
 

@@ -9,7 +9,7 @@ namespace {
 struct BoucWen {
   template <class S>
   static S term(const Instant<S>&, std::span<const S> p, std::span<const S> z) {
-    return S(p[0] * z[0]);
+    return p[0] * z[0];
   }
 
   // Exact along a monotone piece. What lies before the last 500 slip lengths is forgotten at every
@@ -17,16 +17,16 @@ struct BoucWen {
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    const S moved(limited(S(S(to.torsion - from.torsion) / p[1]), S(500.0)));
+    const S moved = limited((to.torsion - from.torsion) / p[1], S(500.0));
     const double direction = real_part(moved) < 0.0 ? -1.0 : 1.0;
-    z[0] = S(direction * along_unit_hysteresis(S(direction * z[0]), S(direction * moved), p[2]));
+    z[0] = direction * along_unit_hysteresis(direction * z[0], direction * moved, p[2]);
   }
 
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
     const double direction = real_part(x.torsion_rate) < 0.0 ? -1.0 : 1.0;
-    dz[0] = S(S(x.torsion_rate / p[1]) * unit_hysteresis_slope(S(direction * z[0]), p[2]));
+    dz[0] = x.torsion_rate / p[1] * unit_hysteresis_slope(direction * z[0], p[2]);
   }
 };
 

@@ -7,7 +7,7 @@ namespace {
 struct CoulombViscous {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(p[0] * smooth_sign(x.motor_speed, p[2]) + p[1] * x.motor_speed);
+    return p[0] * smooth_sign(x.motor_speed, p[2]) + p[1] * x.motor_speed;
   }
 };
 

@@ -14,15 +14,15 @@ struct CurrentLag {
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    const S elapsed(S(to.time - from.time) / p[0]);
-    const S change(to.motor_torque - from.motor_torque);
-    z[0] += S(change * mean_left(elapsed) - z[0] * relaxed(elapsed));
+    const S elapsed = (to.time - from.time) / p[0];
+    const S change = to.motor_torque - from.motor_torque;
+    z[0] += change * mean_left(elapsed) - z[0] * relaxed(elapsed);
   }
 
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
-    dz[0] = S(x.motor_torque_rate - z[0] / p[0]);
+    dz[0] = x.motor_torque_rate - z[0] / p[0];
   }
 };
 

@@ -9,24 +9,24 @@ namespace {
 struct Dahl {
   template <class S>
   static S term(const Instant<S>&, std::span<const S> p, std::span<const S> z) {
-    return S(p[0] * z[0]);
+    return p[0] * z[0];
   }
 
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
     using std::exp;
-    const S dx(to.torsion - from.torsion);
+    const S dx = to.torsion - from.torsion;
     const double direction = real_part(dx) < 0.0 ? -1.0 : 1.0;
-    const S left(exp(S(S(dx * -direction) / p[1])));
-    z[0] = S(direction - S(S(direction - z[0]) * left));
+    const S left = exp((dx * -direction) / p[1]);
+    z[0] = direction - (direction - z[0]) * left;
   }
 
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
     const double direction = real_part(x.torsion_rate) < 0.0 ? -1.0 : 1.0;
-    dz[0] = S(S(x.torsion_rate / p[1]) * S(1.0 - S(z[0] * direction)));
+    dz[0] = x.torsion_rate / p[1] * (1.0 - z[0] * direction);
   }
 };
 

@@ -7,8 +7,8 @@ namespace {
 struct DirectionAsymmetry {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    const S sign(smooth_sign(x.motor_speed, p[2]));
-    return S(p[0] * sign * sign + p[1] * smooth_magnitude(x.motor_speed, p[2]));
+    const S sign = smooth_sign(x.motor_speed, p[2]);
+    return p[0] * sign * sign + p[1] * smooth_magnitude(x.motor_speed, p[2]);
   }
 };
 

@@ -8,9 +8,9 @@ namespace {
 struct DirectionalLoadFriction {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    const S load(x.transmitted_torque / x.gear_ratio);
-    const S squeeze(p[0] * x.motor_torque + p[1] * load);
-    return S(smooth_magnitude(squeeze, p[3]) * smooth_sign(x.motor_speed, p[2]));
+    const S load = x.transmitted_torque / x.gear_ratio;
+    const S squeeze = p[0] * x.motor_torque + p[1] * load;
+    return smooth_magnitude(squeeze, p[3]) * smooth_sign(x.motor_speed, p[2]);
   }
 };
 

@@ -8,7 +8,7 @@ namespace {
 struct EncoderSkew {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(-S(p[0] * x.load_speed));
+    return -p[0] * x.load_speed;
   }
 };
 

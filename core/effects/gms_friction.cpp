@@ -10,13 +10,13 @@ constexpr std::size_t kGroup = 5;
 struct MaxwellSlipStribeck {
   template <class S>
   static S yield_at(const S& speed, std::span<const S> p) {
-    return S(p[1] * S(1.0 + p[2] * bell(speed, p[3])));
+    return p[1] * (1.0 + p[2] * bell(speed, p[3]));
   }
 
   template <class S>
   static S term(const Instant<S>&, std::span<const S> p, std::span<const S> z) {
     S sum(0.0);
-    for (std::size_t k = 0; k < z.size(); ++k) sum += S(p[k * kGroup] * z[k]);
+    for (std::size_t k = 0; k < z.size(); ++k) sum += p[k * kGroup] * z[k];
     return sum;
   }
 
@@ -25,21 +25,21 @@ struct MaxwellSlipStribeck {
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    const S moved(to.motor_angle - from.motor_angle);
-    const S elapsed(to.time - from.time);
-    const S speed(0.5 * S(from.motor_speed + to.motor_speed));
+    const S moved = to.motor_angle - from.motor_angle;
+    const S elapsed = to.time - from.time;
+    const S speed = 0.5 * (from.motor_speed + to.motor_speed);
     const double direction = real_part(moved) < 0.0 ? -1.0 : 1.0;
     for (std::size_t k = 0; k < z.size(); ++k) {
       const auto own = p.subspan(k * kGroup, kGroup);
-      const S yield(yield_at(speed, own));
-      const S along(direction * z[k]);
-      const S stuck(along + S(direction * moved));
+      const S yield = yield_at(speed, own);
+      const S along = direction * z[k];
+      const S stuck = along + direction * moved;
       if (real_part(stuck) <= real_part(yield) || real_part(moved) == 0.0) {
-        z[k] = S(direction * stuck);
+        z[k] = direction * stuck;
       } else if (real_part(along) <= real_part(yield)) {
-        z[k] = S(direction * yield);
+        z[k] = direction * yield;
       } else {
-        z[k] += S(S(direction * S(yield - along)) * relaxed(S(elapsed / own[4])));
+        z[k] += direction * (yield - along) * relaxed(elapsed / own[4]);
       }
     }
   }
@@ -51,10 +51,10 @@ struct MaxwellSlipStribeck {
     const double direction = v < 0.0 ? -1.0 : 1.0;
     for (std::size_t k = 0; k < z.size(); ++k) {
       const auto own = p.subspan(k * kGroup, kGroup);
-      const S yield(yield_at(x.motor_speed, own));
-      const S beyond(S(direction * z[k]) - yield);
-      const S slipping(S(-direction * beyond) / own[4]);
-      dz[k] = S(x.motor_speed + slips(beyond, yield, v) * S(slipping - x.motor_speed));
+      const S yield = yield_at(x.motor_speed, own);
+      const S beyond = direction * z[k] - yield;
+      const S slipping = (-direction * beyond) / own[4];
+      dz[k] = x.motor_speed + slips(beyond, yield, v) * (slipping - x.motor_speed);
     }
   }
 
@@ -63,7 +63,7 @@ struct MaxwellSlipStribeck {
   template <class S>
   static S slips(const S& beyond, const S& yield, double speed) {
     if (speed == 0.0) return S(0.0);
-    const S share(1.0 + S(beyond / S(1e-6 * yield)));
+    const S share = 1.0 + beyond / (1e-6 * yield);
     if (real_part(share) <= 0.0) return S(0.0);
     return real_part(share) >= 1.0 ? S(1.0) : share;
   }

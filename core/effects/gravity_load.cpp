@@ -9,7 +9,7 @@ struct GravityLoad {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     using std::sin;
-    return S(p[0] * S(sin(S(x.load_angle + p[1]))));
+    return p[0] * sin(x.load_angle + p[1]);
   }
 };
 

@@ -13,7 +13,7 @@ S harmonics(const S& angle, std::span<const S> p) {
   using std::sin;
   S sum(0.0);
   for (std::size_t k = 0; k + 2 < p.size(); k += 3) {
-    sum += p[k] * S(sin(S(p[k + 1] * angle + p[k + 2])));
+    sum += p[k] * sin(p[k + 1] * angle + p[k + 2]);
   }
   return sum;
 }

@@ -7,8 +7,8 @@ namespace {
 struct LoadFriction {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    const S load(smooth_magnitude(x.transmitted_torque, p[2]) / x.gear_ratio);
-    return S(p[0] * load * smooth_sign(x.motor_speed, p[1]));
+    const S load = smooth_magnitude(x.transmitted_torque, p[2]) / x.gear_ratio;
+    return p[0] * load * smooth_sign(x.motor_speed, p[1]);
   }
 };
 

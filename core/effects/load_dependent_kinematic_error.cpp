@@ -7,7 +7,7 @@ namespace {
 struct LoadDependentKinematicError {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(x.transmitted_torque * harmonics(x.motor_angle, p));
+    return x.transmitted_torque * harmonics(x.motor_angle, p);
   }
 };
 

@@ -6,7 +6,7 @@ namespace {
 struct LoadFriction {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(S(p[0] * smooth_sign(x.load_speed, p[2])) + S(p[1] * x.load_speed));
+    return p[0] * smooth_sign(x.load_speed, p[2]) + p[1] * x.load_speed;
   }
 };
 

@@ -10,7 +10,7 @@ struct LostMotion {
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     using std::sqrt;
     const S& tau = x.transmitted_torque;
-    return S(-S(S(p[0] * tau) / S(sqrt(S(S(tau * tau) + S(p[1] * p[1]))))));
+    return -p[0] * tau / sqrt(tau * tau + p[1] * p[1]);
   }
 };
 

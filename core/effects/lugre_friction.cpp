@@ -9,32 +9,32 @@ struct LuGre {
   // Deflection while sliding at that speed.
   template <class S>
   static S reach(const S& speed, std::span<const S> p) {
-    return S(p[3] * S(1.0 + S(p[1] / p[0]) * bell(speed, p[2])));
+    return p[3] * (1.0 + p[1] / p[0] * bell(speed, p[2]));
   }
 
   template <class S>
   static S deflection_rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
-    const S held(magnitude(x.motor_speed) * z[0]);
-    return S(x.motor_speed - held / reach(x.motor_speed, p));
+    const S held = magnitude(x.motor_speed) * z[0];
+    return x.motor_speed - held / reach(x.motor_speed, p);
   }
 
   // The damping falls as 4 g/|w| at most, below which the law is passive at any speed.
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
-    const S stiffness(p[0] / p[3]);
-    const S level(stiffness * reach(x.motor_speed, p));
-    const S fade(1.0 + S(p[4] * magnitude(x.motor_speed)) / S(4.0 * level));
-    return S(stiffness * z[0] + S(p[4] / fade) * deflection_rate(x, p, z));
+    const S stiffness = p[0] / p[3];
+    const S level = stiffness * reach(x.motor_speed, p);
+    const S fade = 1.0 + p[4] * magnitude(x.motor_speed) / (4.0 * level);
+    return stiffness * z[0] + p[4] / fade * deflection_rate(x, p, z);
   }
 
   // Exact at constant speed over the sample.
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    const S moved(to.motor_angle - from.motor_angle);
-    const S top(reach(S(0.5 * S(from.motor_speed + to.motor_speed)), p));
-    const S goal(real_part(moved) < 0.0 ? S(-top) : top);
-    z[0] += S(S(goal - z[0]) * relaxed(S(magnitude(moved) / top)));
+    const S moved = to.motor_angle - from.motor_angle;
+    const S top = reach(0.5 * (from.motor_speed + to.motor_speed), p);
+    const S goal = real_part(moved) < 0.0 ? S(-top) : top;
+    z[0] += (goal - z[0]) * relaxed(magnitude(moved) / top);
   }
 
   template <class S>

@@ -11,19 +11,19 @@ struct LuGre {
   // Deflection at which bristles slip steadily.
   template <class S>
   static S steady(const S& rate, std::span<const S> p) {
-    return S(S(p[1] + S(p[2] * bell(rate, p[3]))) / p[0]);
+    return (p[1] + p[2] * bell(rate, p[3])) / p[0];
   }
 
   template <class S>
   static S deflection_rate(const S& rate, const S& z, std::span<const S> p) {
-    return S(rate - S(S(magnitude(rate) * z) / steady(rate, p)));
+    return rate - magnitude(rate) * z / steady(rate, p);
   }
 
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
     const S& rate = x.torsion_rate;
-    const S damping(S(p[4] * bell(rate, p[3])) * deflection_rate(rate, z[0], p));
-    return S(S(p[0] * z[0]) + damping);
+    const S damping = p[4] * bell(rate, p[3]) * deflection_rate(rate, z[0], p);
+    return p[0] * z[0] + damping;
   }
 
   // Exact for a constant rate between two samples.
@@ -31,11 +31,11 @@ struct LuGre {
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
     using std::exp;
-    const S dx(to.torsion - from.torsion);
+    const S dx = to.torsion - from.torsion;
     const double direction = real_part(dx) < 0.0 ? -1.0 : 1.0;
-    const S limit(steady(S(0.5 * S(from.torsion_rate + to.torsion_rate)), p));
-    const S end(limit * direction);
-    z[0] = S(end - S(S(end - z[0]) * S(exp(S(S(dx * -direction) / limit)))));
+    const S limit = steady(0.5 * (from.torsion_rate + to.torsion_rate), p);
+    const S end = limit * direction;
+    z[0] = end - (end - z[0]) * exp((dx * -direction) / limit);
   }
 
   template <class S>

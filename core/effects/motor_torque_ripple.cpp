@@ -13,10 +13,10 @@ struct TorqueRipple {
     using std::sin;
     S sum(0.0);
     for (std::size_t k = 0; k + kGroup <= p.size(); k += kGroup) {
-      const S angle(p[k] * x.motor_angle);
-      const S sine(p[k + 1] + p[k + 3] * x.motor_torque);
-      const S cosine(p[k + 2] + p[k + 4] * x.motor_torque);
-      sum += S(sine * S(sin(angle)) + cosine * S(cos(angle)));
+      const S angle = p[k] * x.motor_angle;
+      const S sine = p[k + 1] + p[k + 3] * x.motor_torque;
+      const S cosine = p[k + 2] + p[k + 4] * x.motor_torque;
+      sum += sine * sin(angle) + cosine * cos(angle);
     }
     return sum;
   }

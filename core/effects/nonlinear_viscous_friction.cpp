@@ -8,9 +8,9 @@ struct PowerLaw {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     const S& w = x.motor_speed;
-    const S square(w * w + p[2] * p[2]);
-    const S half(0.5 * S(p[1] - 1.0));
-    return S(p[0] * w * positive_power(square, half));
+    const S square = w * w + p[2] * p[2];
+    const S half = 0.5 * (p[1] - 1.0);
+    return p[0] * w * positive_power(square, half);
   }
 };
 

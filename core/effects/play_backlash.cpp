@@ -11,14 +11,14 @@ struct PlayBacklash {
   // What the torque exceeds the friction by, in units of T.
   template <class S>
   static S excess(const Instant<S>& x, std::span<const S> p, const S& play) {
-    const S apart(S(x.transmitted_torque / p[1]) - play);
-    return S(apart - limited(apart, S(1.0)));
+    const S apart = x.transmitted_torque / p[1] - play;
+    return apart - limited(apart, S(1.0));
   }
 
   template <class S>
   static S term(const Instant<S>&, std::span<const S> p, std::span<const S> z) {
     using std::sqrt;
-    return S(-S(S(p[0] * z[0]) / S(sqrt(S(S(z[0] * z[0]) + 1.0)))));
+    return -p[0] * z[0] / sqrt(z[0] * z[0] + 1.0);
   }
 
   // The joint creeps after the excess: its friction is T (1 + z' t), by which it can be integrated.
@@ -28,14 +28,14 @@ struct PlayBacklash {
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
     using std::exp;
-    const S left(exp(S(S(from.time - to.time) / kCreepSeconds)));
-    z[0] += S(excess(to, p, z[0]) * S(1.0 - left));
+    const S left = exp((from.time - to.time) / kCreepSeconds);
+    z[0] += excess(to, p, z[0]) * (1.0 - left);
   }
 
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
-    dz[0] = S(excess(x, p, z[0]) / kCreepSeconds);
+    dz[0] = excess(x, p, z[0]) / kCreepSeconds;
   }
 };
 

@@ -13,9 +13,9 @@ struct PositionFriction {
     using std::sin;
     S sum(0.0);
     for (std::size_t k = 0; k + kGroup <= p.size(); k += kGroup) {
-      const S angle(p[k] * x.motor_angle);
-      const S wave(p[k + 1] * S(sin(angle)) + p[k + 2] * S(cos(angle)));
-      sum += S(wave * smooth_sign(x.motor_speed, p[k + 3]));
+      const S angle = p[k] * x.motor_angle;
+      const S wave = p[k + 1] * sin(angle) + p[k + 2] * cos(angle);
+      sum += wave * smooth_sign(x.motor_speed, p[k + 3]);
     }
     return sum;
   }

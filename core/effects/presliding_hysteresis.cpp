@@ -16,8 +16,8 @@ struct MaxwellSlip {
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    const S step(to.torsion - from.torsion);
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] = limited(S(z[k] + step), p[2 * k + 1]);
+    const S step = to.torsion - from.torsion;
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = limited(z[k] + step, p[2 * k + 1]);
   }
 
   template <class S>

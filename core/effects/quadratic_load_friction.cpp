@@ -8,17 +8,17 @@ namespace {
 struct QuadraticLoadFriction {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    const S motor(x.motor_torque * x.motor_torque);
-    const S torque(x.transmitted_torque / x.gear_ratio);
-    const S load(torque * torque);
-    const S width(p[4] * p[4]);
+    const S motor = x.motor_torque * x.motor_torque;
+    const S torque = x.transmitted_torque / x.gear_ratio;
+    const S load = torque * torque;
+    const S width = p[4] * p[4];
     // Squared, so that little is left of it however hard both pull the same way.
-    const S opposed(smooth_step(S(x.motor_torque * torque), width));
-    const S loaded(opposed * opposed);
-    const S driving(smooth_step(S(motor - load), width));
-    const S driven(smooth_step(S(load - motor), width));
-    const S squeeze(p[1] * load * driving + p[0] * motor * driven);
-    return S(loaded * squeeze * bell(x.motor_speed, p[2]) * smooth_sign(x.motor_speed, p[3]));
+    const S opposed = smooth_step(x.motor_torque * torque, width);
+    const S loaded = opposed * opposed;
+    const S driving = smooth_step(motor - load, width);
+    const S driven = smooth_step(load - motor, width);
+    const S squeeze = p[1] * load * driving + p[0] * motor * driven;
+    return loaded * squeeze * bell(x.motor_speed, p[2]) * smooth_sign(x.motor_speed, p[3]);
   }
 };
 

@@ -8,7 +8,7 @@ namespace {
 struct SensorDelay {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(-p[0] * x.transmitted_torque_rate);
+    return -p[0] * x.transmitted_torque_rate;
   }
 };
 

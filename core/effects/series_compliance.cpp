@@ -6,7 +6,7 @@ namespace {
 struct SeriesCompliance {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(-S(p[0] * x.transmitted_torque));
+    return -p[0] * x.transmitted_torque;
   }
 };
 

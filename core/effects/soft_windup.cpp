@@ -9,8 +9,8 @@ struct SoftWindup {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     using std::tanh;
-    const S soft(p[1] * S(tanh(S(x.torsion / p[1]))));
-    return S(p[0] * S(x.torsion - soft));
+    const S soft = p[1] * tanh(x.torsion / p[1]);
+    return p[0] * (x.torsion - soft);
   }
 };
 

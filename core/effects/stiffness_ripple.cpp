@@ -7,7 +7,7 @@ namespace {
 struct StiffnessRipple {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(x.torsion * harmonics(x.motor_angle, p));
+    return x.torsion * harmonics(x.motor_angle, p);
   }
 };
 

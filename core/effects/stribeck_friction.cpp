@@ -8,9 +8,9 @@ struct Stribeck {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     using std::exp;
-    const S ratio(magnitude(x.motor_speed) / p[1]);
-    const S left(exp(S(-positive_power(ratio, p[2]))));
-    return S(p[0] * left * smooth_sign(x.motor_speed, p[3]));
+    const S ratio = magnitude(x.motor_speed) / p[1];
+    const S left = exp(-positive_power(ratio, p[2]));
+    return p[0] * left * smooth_sign(x.motor_speed, p[3]);
   }
 };
 

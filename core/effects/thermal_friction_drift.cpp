@@ -8,8 +8,8 @@ struct ThermalDrift {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     using std::exp;
-    const S cold(exp(S(-x.time / p[2])));
-    return S(cold * S(p[0] * smooth_sign(x.motor_speed, p[3]) + p[1] * x.motor_speed));
+    const S cold = exp(-x.time / p[2]);
+    return cold * (p[0] * smooth_sign(x.motor_speed, p[3]) + p[1] * x.motor_speed);
   }
 };
 

@@ -19,15 +19,15 @@ struct ThermalState {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
     using std::exp;
-    const S coulomb(p[kCoulomb] * S(exp(S(-p[kCoulombSlope] * z[0]))));
-    const S viscous(p[kViscous] * S(exp(S(-p[kViscousSlope] * z[0]))));
-    return S(coulomb * smooth_sign(x.motor_speed, p[kWidth]) + viscous * x.motor_speed);
+    const S coulomb = p[kCoulomb] * exp(-p[kCoulombSlope] * z[0]);
+    const S viscous = p[kViscous] * exp(-p[kViscousSlope] * z[0]);
+    return coulomb * smooth_sign(x.motor_speed, p[kWidth]) + viscous * x.motor_speed;
   }
 
   template <class S>
   static S loss(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
-    const S friction(term(x, p, z) * x.motor_speed);
-    return S(friction + p[kCopper] * x.motor_torque * x.motor_torque);
+    const S friction = term(x, p, z) * x.motor_speed;
+    return friction + p[kCopper] * x.motor_torque * x.motor_torque;
   }
 
   // Exact for a loss that is constant over the step: the mean of its ends.
@@ -35,16 +35,16 @@ struct ThermalState {
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
     const std::span<const S> state(z);
-    const S power(0.5 * S(loss(from, p, state) + loss(to, p, state)));
-    const S gained(power - p[kConductance] * z[0]);
-    const S step(S(to.time - from.time) / p[kCapacity]);
-    z[0] += S(gained * step * mean_left(S(p[kConductance] * step)));
+    const S power = 0.5 * (loss(from, p, state) + loss(to, p, state));
+    const S gained = power - p[kConductance] * z[0];
+    const S step = (to.time - from.time) / p[kCapacity];
+    z[0] += gained * step * mean_left(p[kConductance] * step);
   }
 
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
-    dz[0] = S(S(loss(x, p, z) - p[kConductance] * z[0]) / p[kCapacity]);
+    dz[0] = (loss(x, p, z) - p[kConductance] * z[0]) / p[kCapacity];
   }
 };
 

@@ -6,7 +6,7 @@ namespace {
 struct TorqueConstantError {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(-p[0] * x.motor_torque);
+    return -p[0] * x.motor_torque;
   }
 };
 

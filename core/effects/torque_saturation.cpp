@@ -9,10 +9,10 @@ struct TorqueSaturation {
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
     using std::sqrt;
     const S& torque = x.motor_torque;
-    const S square(3.0 * p[0] * torque * torque);
-    if (real_part(square) < 1.0) return S(p[0] * torque * torque * torque);
-    const S summit(2.0 / S(3.0 * S(sqrt(S(3.0 * p[0])))));
-    return real_part(torque) < 0.0 ? S(torque + summit) : S(torque - summit);
+    const S square = 3.0 * p[0] * torque * torque;
+    if (real_part(square) < 1.0) return p[0] * torque * torque * torque;
+    const S summit = 2.0 / (3.0 * sqrt(3.0 * p[0]));
+    return real_part(torque) < 0.0 ? torque + summit : torque - summit;
   }
 };
 

@@ -6,7 +6,7 @@ namespace {
 struct TorqueSensorDrift {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S>) {
-    return S(S(p[0] * x.time) + S(p[1] * relaxed(S(x.time / p[2]))));
+    return p[0] * x.time + p[1] * relaxed(x.time / p[2]);
   }
 };
 

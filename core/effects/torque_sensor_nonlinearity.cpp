@@ -8,14 +8,14 @@ struct TorqueSensorNonlinearity {
   template <class S>
   static S term(const Instant<S>& x, std::span<const S> p, std::span<const S> z) {
     const S& tau = x.transmitted_torque;
-    const S cubic(p[0] * S(tau * S(tau * tau)));
-    return S(cubic + S(S(p[1] * z[0]) / p[2]));
+    const S cubic = p[0] * (tau * (tau * tau));
+    return cubic + p[1] * z[0] / p[2];
   }
 
   template <class S>
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
-    z[0] = limited(S(z[0] + S(to.transmitted_torque - from.transmitted_torque)), p[2]);
+    z[0] = limited(z[0] + (to.transmitted_torque - from.transmitted_torque), p[2]);
   }
 
   template <class S>

@@ -6,7 +6,7 @@ namespace {
 struct TorsionZero {
   template <class S>
   static S term(const Instant<S>&, std::span<const S> p, std::span<const S>) {
-    return S(-p[0]);
+    return -p[0];
   }
 };
 

@@ -12,17 +12,17 @@ namespace flexspline {
 template <class S>
 S unit_hysteresis_slope(const S& y, const S& n) {
   const S power = positive_power(magnitude(y), n);
-  return real_part(y) < 0.0 ? S(1.0 + power) : S(1.0 - power);
+  return real_part(y) < 0.0 ? 1.0 + power : 1.0 - power;
 }
 
 /// x since y was 0, by its series in |y|^n, for |y|^n of 0.05 or less.
 template <class S>
 S unit_hysteresis_path(const S& y, const S& n) {
   const S power = positive_power(magnitude(y), n);
-  const S ratio(real_part(y) < 0.0 ? S(-power) : power);
+  const S ratio = real_part(y) < 0.0 ? S(-power) : power;
   S sum(0.0);
-  for (double k = 14.0; k > 0.0; --k) sum = S(ratio * S(S(1.0 / S(k * n + 1.0)) + sum));
-  return S(y * S(1.0 + sum));
+  for (double k = 14.0; k > 0.0; --k) sum = ratio * (1.0 / (k * n + 1.0) + sum);
+  return y * (1.0 + sum);
 }
 
 /// Where that series takes y, by Newton.
@@ -37,8 +37,8 @@ S from_unit_hysteresis_path(const S& path, const S& n) {
     y -= step;
     if (std::abs(step) <= 1e-16 * std::abs(y)) break;
   }
-  const S root(y);
-  return S(root - S(S(unit_hysteresis_path(root, n) - path) * unit_hysteresis_slope(root, n)));
+  const S root = y;
+  return root - (unit_hysteresis_path(root, n) - path) * unit_hysteresis_slope(root, n);
 }
 
 /// y after a step of at most `left`, which it shortens by what it took: the Taylor series, its
@@ -57,11 +57,11 @@ S unit_hysteresis_step(const S& y, S& left, const S& n) {
   std::size_t last = 0;
   double power = h;
   for (std::size_t k = 1; k <= kTerms; ++k) {
-    c[k] = S((k == 1 ? S(1.0 + sign * w[0]) : S(sign * w[k - 1])) / static_cast<double>(k));
+    c[k] = S((k == 1 ? 1.0 + sign * w[0] : sign * w[k - 1]) / static_cast<double>(k));
     S sum(0.0);
     for (std::size_t j = 1; j <= k; ++j) {
       const double of_w = static_cast<double>(k - j);
-      sum += S(S(static_cast<double>(j) * n - of_w) * S(c[j] * w[k - j]));
+      sum += S(S(static_cast<double>(j) * n - of_w) * (c[j] * w[k - j]));
     }
     w[k] = S(sum / S(static_cast<double>(k) * y));
     last = k;
@@ -74,11 +74,11 @@ S unit_hysteresis_step(const S& y, S& left, const S& n) {
     const double tail = std::max(std::abs(real_part(c[kTerms])), 1e-300);
     h = std::min(h, std::pow(kSmall / tail, 1.0 / static_cast<double>(kTerms)));
   }
-  const S step(h < real_part(left) ? S(h) : left);
+  const S step = h < real_part(left) ? S(h) : left;
   S moved(0.0);
-  for (std::size_t k = last; k > 0; --k) moved = S(step * S(c[k] + moved));
-  left = S(left - step);
-  return S(y + moved);
+  for (std::size_t k = last; k > 0; --k) moved = step * (c[k] + moved);
+  left = left - step;
+  return y + moved;
 }
 
 /// y after x has risen by `distance` >= 0: exact to rounding for 0.2 <= n <= 5. Around y = 0, where
@@ -93,10 +93,10 @@ S along_unit_hysteresis(S y, S distance, const S& n) {
       continue;
     }
     const S start = unit_hysteresis_path(y, n);
-    const S whole(start + distance);
+    const S whole = start + distance;
     const S edge = unit_hysteresis_path(S(near), n);
     if (real_part(whole) <= real_part(edge)) return from_unit_hysteresis_path(whole, n);
-    distance = S(whole - edge);
+    distance = whole - edge;
     y = S(near);
   }
   return y;

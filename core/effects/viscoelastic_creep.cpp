@@ -19,11 +19,11 @@ struct ViscoelasticCreep {
   static void advance(const Instant<S>& from, const Instant<S>& to, std::span<const S> p,
                       std::span<S> z) {
     using std::exp;
-    const S dx(to.torsion - from.torsion);
+    const S dx = to.torsion - from.torsion;
     for (std::size_t k = 0; k < z.size(); ++k) {
-      const S elapsed(S(to.time - from.time) / p[2 * k + 1]);
-      const S left(exp(S(-elapsed)));
-      z[k] = S(S(z[k] * left) + S(dx * mean_left(elapsed)));
+      const S elapsed = (to.time - from.time) / p[2 * k + 1];
+      const S left = exp(S(-elapsed));
+      z[k] = z[k] * left + dx * mean_left(elapsed);
     }
   }
 

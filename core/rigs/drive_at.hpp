@@ -45,7 +45,7 @@ class DriveAt {
 
   /// f(phi) + g^-1(phi'/h(phi)), eq. (4).
   S torsion_law(const Instant<S>& x) const {
-    return S(f(x.torsion) + g_inverse(S(x.torsion_rate / h(x.torsion))));
+    return f(x.torsion) + g_inverse(x.torsion_rate / h(x.torsion));
   }
 
   /// What the effects at a site add.
@@ -60,24 +60,24 @@ class DriveAt {
   /// What crosses the transmission, all effects there included, which see the torsion law's torque.
   S transmitted(Instant<S>& x) const {
     x.transmitted_torque = torsion_law(x);
-    return S(x.transmitted_torque + sum(Site::transmission, x));
+    return x.transmitted_torque + sum(Site::transmission, x);
   }
 
   /// tau_f + B1 omega + effects at the motor.
   S motor_losses(const Instant<S>& x) const {
-    const S coulomb(constant(&DriveSpec::motor_coulomb) *
-                    smooth_sign(x.motor_speed, constant(&DriveSpec::coulomb_width)));
-    const S viscous(constant(&DriveSpec::motor_viscous) * x.motor_speed);
-    return S(coulomb + viscous + sum(Site::motor, x));
+    const S coulomb = constant(&DriveSpec::motor_coulomb) *
+                      smooth_sign(x.motor_speed, constant(&DriveSpec::coulomb_width));
+    const S viscous = constant(&DriveSpec::motor_viscous) * x.motor_speed;
+    return coulomb + viscous + sum(Site::motor, x);
   }
 
   /// B2 omega + m g l sin(theta) + effects at the load.
   S load_torque(const Instant<S>& x) const {
     using std::sin;
-    const S weight(constant(&DriveSpec::load_mass) * constant(&DriveSpec::arm_length));
-    const S gravity(weight * S(model_.drive().gravity * S(sin(x.load_angle))));
-    const S viscous(constant(&DriveSpec::load_viscous) * x.load_speed);
-    return S(gravity + viscous + sum(Site::load, x));
+    const S weight = constant(&DriveSpec::load_mass) * constant(&DriveSpec::arm_length);
+    const S gravity = weight * (model_.drive().gravity * sin(x.load_angle));
+    const S viscous = constant(&DriveSpec::load_viscous) * x.load_speed;
+    return gravity + viscous + sum(Site::load, x);
   }
 
   /// What the kinematics add to the torsion of a rigid instant, without them.
@@ -117,7 +117,7 @@ class DriveAt {
     x.motor_torque = recorded;
     if (!model_.has(Site::motor_torque_signal)) return;
     for (int k = 0; k < 40; ++k) {
-      x.motor_torque = S(recorded - sum(Site::motor_torque_signal, x));
+      x.motor_torque = recorded - sum(Site::motor_torque_signal, x);
     }
   }
 
@@ -127,16 +127,16 @@ class DriveAt {
     const S recorded = x.transmitted_torque;
     const S recorded_rate = x.transmitted_torque_rate;
     for (int k = 0; k < 40; ++k) {
-      x.transmitted_torque = S(recorded - sum(Site::torque_signal, x));
+      x.transmitted_torque = recorded - sum(Site::torque_signal, x);
     }
     for (int k = 0; k < 40; ++k) {
-      x.transmitted_torque_rate = S(recorded_rate - difference(1e-4, [&](double by) {
-                                      Instant<S> moved = x;
-                                      moved.time += S(by);
-                                      moved.motor_angle += S(by * x.motor_speed);
-                                      moved.transmitted_torque += S(by * x.transmitted_torque_rate);
-                                      return sum(Site::torque_signal, moved);
-                                    }));
+      x.transmitted_torque_rate = recorded_rate - difference(1e-4, [&](double by) {
+                                    Instant<S> moved = x;
+                                    moved.time += S(by);
+                                    moved.motor_angle += by * x.motor_speed;
+                                    moved.transmitted_torque += by * x.transmitted_torque_rate;
+                                    return sum(Site::torque_signal, moved);
+                                  });
     }
   }
 
@@ -152,7 +152,7 @@ class DriveAt {
         if (use.states > 0) memory_rate(use, x, rates);
         added += difference(step, [&](double by) { return term_moved(use, x, rates, by); });
       }
-      x.transmitted_torque_rate = S(recorded_rate - added);
+      x.transmitted_torque_rate = recorded_rate - added;
     }
     return x.transmitted_torque_rate;
   }
@@ -188,7 +188,7 @@ class DriveAt {
   S reaction(Site site, Instant<S> x, S Instant<S>::*over, bool EffectUse::*follows,
              S Instant<S>::*angle) const {
     const S whole = x.*over;
-    x.*over = S(0.5 * whole);
+    x.*over = 0.5 * whole;
     S slope(0.0);
     for (const EffectUse& use : model_.effects()) {
       if (use.row->site != site || !(use.*follows)) continue;
@@ -198,13 +198,13 @@ class DriveAt {
         return term(use, moved);
       });
     }
-    return S(whole * slope);
+    return whole * slope;
   }
 
   S reactions(const Instant<S>& rigid, const Instant<S>& x, bool EffectUse::*follows,
               S Instant<S>::*angle) const {
-    return S(reaction(Site::kinematics, rigid, &Instant<S>::transmitted_torque, follows, angle) +
-             reaction(Site::transmission, x, &Instant<S>::torsion, follows, angle));
+    return reaction(Site::kinematics, rigid, &Instant<S>::transmitted_torque, follows, angle) +
+           reaction(Site::transmission, x, &Instant<S>::torsion, follows, angle);
   }
 
   template <class Function>
@@ -214,7 +214,7 @@ class DriveAt {
     for (int k = 1; k <= 3; ++k) {
       const S ahead = function(k * step);
       const S behind = function(-k * step);
-      slope += S((kWeights[k - 1] / step) * S(ahead - behind));
+      slope += (kWeights[k - 1] / step) * (ahead - behind);
     }
     return slope;
   }
@@ -242,13 +242,13 @@ class DriveAt {
   S term_moved(const EffectUse& use, Instant<S> x, std::span<const S> memory_rates,
                double dt) const {
     x.time += S(dt);
-    x.motor_angle += S(dt * x.motor_speed);
-    x.load_angle += S(dt * x.load_speed);
-    x.torsion += S(dt * x.torsion_rate);
-    x.transmitted_torque += S(dt * x.transmitted_torque_rate);
+    x.motor_angle += dt * x.motor_speed;
+    x.load_angle += dt * x.load_speed;
+    x.torsion += dt * x.torsion_rate;
+    x.transmitted_torque += dt * x.transmitted_torque_rate;
     std::vector<S> memory(use.states);
     for (std::size_t k = 0; k < use.states; ++k) {
-      memory[k] = S(memory_[use.state + k] + S(dt * memory_rates[k]));
+      memory[k] = memory_[use.state + k] + dt * memory_rates[k];
     }
     return functions_at<S>(*use.row).term(x, p_.subspan(use.parameter, use.parameters), memory);
   }

@@ -48,8 +48,8 @@ S left_of_kinematics(const DriveAt<S>& at, const Instant<S>& rigid, const S& tor
   x.torsion_rate = rate;
   Instant<S> loaded = rigid;
   loaded.transmitted_torque = torque(at, x);
-  if (at.model().torsion_is_state()) return S(torsion - rigid.torsion - at.kinematics(loaded));
-  return S(rate - rigid.torsion_rate - at.kinematics_rate(loaded));
+  if (at.model().torsion_is_state()) return torsion - rigid.torsion - at.kinematics(loaded);
+  return rate - rigid.torsion_rate - at.kinematics_rate(loaded);
 }
 
 /// The rate of the law's torsion at which the torque and the kinematics that follow it agree.
@@ -76,8 +76,7 @@ Instant<S> enter_transmission(const DriveAt<S>& at, Instant<S>& x, const S& law_
                               const Torque& torque = {}) {
   Instant<S> rigid = x;
   if (at.model().kinematics_follow_torque()) {
-    x.torsion =
-        at.model().torsion_is_state() ? law_torsion : S(rigid.torsion + at.kinematics(rigid));
+    x.torsion = at.model().torsion_is_state() ? law_torsion : rigid.torsion + at.kinematics(rigid);
     x.torsion_rate = law_rate(at, rigid, x.torsion, torque);
   } else {
     at.add_kinematics(x);

@@ -46,7 +46,7 @@ S implicit_root(const ComplexResidual& complex_residual, const Residual& residua
     return root;
   } else {
     const S off = residual(S(root));
-    return S(root - S(S(off - real_part(off)) / slope));
+    return root - (off - real_part(off)) / slope;
   }
 }
 

@@ -11,8 +11,9 @@ struct SpecimenTorque {
   template <class S>
   S operator()(const DriveAt<S>& at, Instant<S>& x) const {
     x.transmitted_torque = at.torsion_law(x);
-    const S effects(at.sum(Site::transmission, x) + at.sum(Site::motor, x) + at.sum(Site::load, x));
-    return S(x.transmitted_torque + effects);
+    const S effects =
+        at.sum(Site::transmission, x) + at.sum(Site::motor, x) + at.sum(Site::load, x);
+    return x.transmitted_torque + effects;
   }
 };
 
@@ -32,9 +33,9 @@ struct ImposedMotion {
     x.time = S(t);
     x.motor_angle = x.load_angle = x.torsion = S(motion.value(t));
     x.motor_speed = x.load_speed = x.torsion_rate = S(rate_of(motion, t));
-    x.motor_acceleration = x.load_acceleration = x.torsion_acceleration = S(bend_of(motion, t));
+    x.motor_acceleration = x.load_acceleration = x.torsion_acceleration = bend_of(motion, t);
     const Instant<S> rigid = enter_transmission(at, x, y[own - 1], SpecimenTorque{});
-    ydot[0] = S(x.transmitted_torque * x.motor_speed);
+    ydot[0] = x.transmitted_torque * x.motor_speed;
     if (model.torsion_is_state()) ydot[own - 1] = x.torsion_rate;
     at.memory_rates(rigid, x, ydot.subspan(own));
     return x;

@@ -34,7 +34,7 @@ struct LockedDrive {
   Instant<S> start(double t, const S& motor_angle) const {
     Instant<S> x;
     x.time = S(t);
-    x.gear_ratio = S(model.drive().gear_ratio);
+    x.gear_ratio = model.drive().gear_ratio;
     x.motor_angle = motor_angle;
     return x;
   }
@@ -42,8 +42,8 @@ struct LockedDrive {
   template <class S>
   static Instant<S> at_speed(Instant<S> x, const S& motor_speed) {
     x.motor_speed = motor_speed;
-    x.torsion = S(x.motor_angle / x.gear_ratio);
-    x.torsion_rate = S(motor_speed / x.gear_ratio);
+    x.torsion = x.motor_angle / x.gear_ratio;
+    x.torsion_rate = motor_speed / x.gear_ratio;
     return x;
   }
 
@@ -52,8 +52,8 @@ struct LockedDrive {
   S surplus(const DriveAt<S>& at, Instant<S>& x, const S& speed, const S& law_torsion) const {
     x = at_speed(x, speed);
     const Instant<S> rigid = enter_transmission(at, x, law_torsion);
-    const S geared(S(x.transmitted_torque / x.gear_ratio) + at.motor_reaction(rigid, x));
-    return S(x.motor_torque - at.motor_losses(x) - geared);
+    const S geared = x.transmitted_torque / x.gear_ratio + at.motor_reaction(rigid, x);
+    return x.motor_torque - at.motor_losses(x) - geared;
   }
 
   // J phi'' + B phi' + tau(phi', phi) = tau_n, eqs. (9)-(14), written at the motor.
@@ -61,10 +61,10 @@ struct LockedDrive {
   Instant<S> inertial_instant(const DriveAt<S>& at, double t, std::span<const S> y) const {
     Instant<S> x = at_speed(start(t, y[0]), y[1]);
     drive_motor(at, model.drive(), inputs, loop, x, t, loop ? y[2] : S(0.0));
-    const S acceleration(surplus(at, x, y[1], y[variables.size() - 1]) /
-                         at.constant(&DriveSpec::motor_inertia));
+    const S acceleration =
+        surplus(at, x, y[1], y[variables.size() - 1]) / at.constant(&DriveSpec::motor_inertia);
     x.motor_acceleration = acceleration;
-    x.torsion_acceleration = S(acceleration / x.gear_ratio);
+    x.torsion_acceleration = acceleration / x.gear_ratio;
     return x;
   }
 
@@ -84,7 +84,7 @@ struct LockedDrive {
     const Complex real_torsion(real_part(torsion));
     const S speed =
         implicit_root<S>([&](const Complex& v) { return -surplus(complex_at, z, v, real_torsion); },
-                         [&](const S& v) { return S(-surplus(at, x, v, torsion)); }, scale);
+                         [&](const S& v) { return -surplus(at, x, v, torsion); }, scale);
     surplus(at, x, speed, torsion);
     return x;
   }

@@ -36,10 +36,10 @@ S commanded_torque(const DriveSpec& drive, const RigInputs& inputs, bool loop, d
   if (!loop) return S(input(inputs, Quantity::motor_torque).value(t));
   const PositionLoop& gains = drive.position_loop;
   const Signal& reference = input(inputs, Quantity::commanded_angle);
-  const S error(reference.value(t) - x.motor_angle);
-  const S error_rate(rate_of(reference, t) - x.motor_speed);
-  const S wanted(S(gains.proportional * error) + S(gains.integral * loop_state) +
-                 S(gains.derivative * error_rate));
+  const S error = reference.value(t) - x.motor_angle;
+  const S error_rate = rate_of(reference, t) - x.motor_speed;
+  const S wanted =
+      gains.proportional * error + gains.integral * loop_state + gains.derivative * error_rate;
   return limited(wanted, S(gains.limit));
 }
 
@@ -59,11 +59,11 @@ S loop_rate(const DriveSpec& drive, const RigInputs& inputs, double t, const Ins
   const double most = std::abs(real_part(commanded_torque(drive, inputs, true, t, x, loop_state)));
   if (most >= gains.limit) return S(0.0);
   const Signal& reference = input(inputs, Quantity::commanded_angle);
-  const S error(reference.value(t) - x.motor_angle);
-  const S error_rate(rate_of(reference, t) - x.motor_speed);
+  const S error = reference.value(t) - x.motor_angle;
+  const S error_rate = rate_of(reference, t) - x.motor_speed;
   const double bend = gains.derivative == 0.0 ? 0.0 : bend_of(reference, t);
-  return S(S(gains.proportional * error_rate) + S(gains.integral * error) +
-           S(gains.derivative * S(bend - x.motor_acceleration)));
+  return gains.proportional * error_rate + gains.integral * error +
+         gains.derivative * (bend - x.motor_acceleration);
 }
 
 /// A vector of complex numbers with the real parts of another scalar's.

@@ -38,11 +38,11 @@ struct ServoDrive {
   Instant<S> start(double t, std::span<const T> y) const {
     Instant<S> x;
     x.time = S(t);
-    x.gear_ratio = S(model.drive().gear_ratio);
+    x.gear_ratio = model.drive().gear_ratio;
     x.load_angle = x.torsion = value_as<S>(y[0]);
     x.load_speed = x.torsion_rate = value_as<S>(y[1]);
-    x.motor_angle = S(x.gear_ratio * x.load_angle);
-    x.motor_speed = S(x.gear_ratio * x.load_speed);
+    x.motor_angle = x.gear_ratio * x.load_angle;
+    x.motor_speed = x.gear_ratio * x.load_speed;
     return x;
   }
 
@@ -51,13 +51,13 @@ struct ServoDrive {
     if constexpr (std::is_same_v<S, T>) {
       return v;
     } else {
-      return S(real_part(v));
+      return real_part(v);
     }
   }
 
   template <class S>
   S motor_torque(const DriveAt<S>& at, const Instant<S>& x, double t, std::span<const S> y) const {
-    if (feed == Feed::winding) return S(at.constant(&DriveSpec::torque_constant) * y[2]);
+    if (feed == Feed::winding) return at.constant(&DriveSpec::torque_constant) * y[2];
     return fed_torque(at, inputs, feed, x, t);
   }
 
@@ -65,12 +65,12 @@ struct ServoDrive {
   template <class S>
   S surplus(const DriveAt<S>& at, Instant<S>& x, const S& a, double t) const {
     x.load_acceleration = x.torsion_acceleration = a;
-    x.motor_acceleration = S(x.gear_ratio * a);
-    x.transmitted_torque = S(S(at.constant(&DriveSpec::load_inertia) * a) + at.load_torque(x));
+    x.motor_acceleration = x.gear_ratio * a;
+    x.transmitted_torque = at.constant(&DriveSpec::load_inertia) * a + at.load_torque(x);
     if (inputs.load_torque) x.transmitted_torque += S(inputs.load_torque->value(t));
-    const S inertia(at.constant(&DriveSpec::motor_inertia) * x.motor_acceleration);
-    const S motor(x.gear_ratio * S(x.motor_torque - inertia - at.motor_losses(x)));
-    return S(motor - x.transmitted_torque - at.sum(Site::transmission, x));
+    const S inertia = at.constant(&DriveSpec::motor_inertia) * x.motor_acceleration;
+    const S motor = x.gear_ratio * (x.motor_torque - inertia - at.motor_losses(x));
+    return motor - x.transmitted_torque - at.sum(Site::transmission, x);
   }
 
   // Friction that grows with the torque transmitted makes the acceleration implicit.
@@ -84,7 +84,7 @@ struct ServoDrive {
     z.motor_torque = Complex(real_part(x.motor_torque));
     z.motor_torque_rate = Complex(real_part(x.motor_torque_rate));
     return implicit_root<S>([&](const Complex& a) { return -surplus(complex_at, z, a, t); },
-                            [&](const S& a) { return S(-surplus(at, x, a, t)); }, 1.0);
+                            [&](const S& a) { return -surplus(at, x, a, t); }, 1.0);
   }
 };
 

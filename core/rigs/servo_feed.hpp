@@ -27,19 +27,19 @@ S fed_torque(const DriveAt<S>& at, const RigInputs& inputs, Feed feed, const Ins
   if (feed == Feed::torque) return S(input(inputs, Quantity::motor_torque).value(t));
   const S kt = at.constant(&DriveSpec::torque_constant);
   if (feed == Feed::current) return S(kt * input(inputs, Quantity::current).value(t));
-  const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
-  return S(S(kt * S(voltage(inputs, t) - emf)) / at.constant(&DriveSpec::resistance));
+  const S emf = at.constant(&DriveSpec::back_emf) * x.motor_speed;
+  return kt * (voltage(inputs, t) - emf) / at.constant(&DriveSpec::resistance);
 }
 
 /// L i' = V - R i - ke omega; off, the current decays through the bridge.
 template <class S>
 S winding_rate(const DriveAt<S>& at, const RigInputs& inputs, const Instant<S>& x, double t,
                const S& current) {
-  const S drop(at.constant(&DriveSpec::resistance) * current);
+  const S drop = at.constant(&DriveSpec::resistance) * current;
   const S inductance = at.constant(&DriveSpec::inductance);
-  if (!enabled(inputs, t)) return S(-drop / inductance);
-  const S emf(at.constant(&DriveSpec::back_emf) * x.motor_speed);
-  return S(S(S(voltage(inputs, t)) - drop - emf) / inductance);
+  if (!enabled(inputs, t)) return -drop / inductance;
+  const S emf = at.constant(&DriveSpec::back_emf) * x.motor_speed;
+  return (voltage(inputs, t) - drop - emf) / inductance;
 }
 
 }  // namespace flexspline

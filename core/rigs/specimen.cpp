@@ -24,7 +24,7 @@ struct Specimen {
     Instant<S> x = start(t, y[0]);
     const S speed =
         implicit_root<S>([&](const Complex& v) { return recorded(complex_at, z, v) - wanted; },
-                         [&](const S& v) { return S(recorded(at, x, v) - S(wanted)); },
+                         [&](const S& v) { return recorded(at, x, v) - S(wanted); },
                          model.drive().torsion.g_inverse.scale);
     recorded(at, x, speed);
     if (model.sensor_remembers()) {
@@ -70,7 +70,7 @@ struct Specimen {
     enter_torque(at, x);
     at.add_kinematics(x);
     x.transmitted_torque = SpecimenTorque{}(at, x);
-    return S(x.transmitted_torque + at.sum(Site::torque_signal, x));
+    return x.transmitted_torque + at.sum(Site::torque_signal, x);
   }
 };
 
