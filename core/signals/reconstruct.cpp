@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@ namespace flexspline {
 namespace {
 
 constexpr std::size_t kFewest = 16;  // samples of a spline
+constexpr double kFollows = 0.01;    // of the motion's rms: harmonics that leave less follow it
+constexpr double kNoisy = 3.0;       // noises of neighbouring samples: what noise may leave
 constexpr std::size_t kRememberedBytes = std::size_t{32} << 20U;
 
 double smoothstep(double u) {
@@ -44,6 +47,32 @@ Signals harmonics_over(const TorsionRecord& record, const SteadyPart& steady) {
   return smooth_by_harmonics(part(record.time), signals, steady.period);
 }
 
+double rms(std::span<const double> values, double about) {
+  double sum = 0.0;
+  for (const double x : values) sum += (x - about) * (x - about);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// By third differences, in which a smooth motion has no share.
+double noise_of_neighbours(std::span<const double> y) {
+  std::vector<double> third;
+  for (std::size_t i = 3; i < y.size(); ++i)
+    third.push_back(y[i] - 3.0 * y[i - 1] + 3.0 * y[i - 2] - y[i - 3]);
+  return rms(third, 0.0) / std::sqrt(20.0);
+}
+
+// Whether one cycle may stand for all: cycles of a steady part agree within 15 %, and where they
+// differ by more than noise a memory of reversals needs each as it was.
+bool one_cycle_serves(const TorsionRecord& record, const SteadyPart& steady,
+                      const SmoothSignal& motion) {
+  const auto part =
+      std::span<const double>(record.motion).subspan(steady.first, steady.last - steady.first);
+  const double mean =
+      std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(part.size());
+  return motion.noise <= kFollows * rms(part, mean) ||
+         motion.noise <= kNoisy * noise_of_neighbours(part);
+}
+
 // Adds a part of the record to the whole with a weight for every instant.
 template <class Weight>
 void add(Signals& whole, const Signals& part, std::size_t offset, const Weight& weight) {
@@ -58,13 +87,14 @@ void add(Signals& whole, const Signals& part, std::size_t offset, const Weight& 
   }
 }
 
-// Motion and effort: the steady part by its harmonics, what is before and after by splines; they
-// meet over a quarter of a cycle inside the steady part.
+// Motion and effort: the steady part by its harmonics where they follow it, what is before and
+// after by splines; they meet over a quarter of a cycle inside the steady part.
 Signals smooth(const TorsionRecord& record, const std::optional<SteadyPart>& steady) {
   const std::vector<double>& time = record.time;
   const std::size_t n = time.size();
   if (!steady) return splines_over(record, {0, n});
   const Signals periodic = harmonics_over(record, *steady);
+  if (!one_cycle_serves(record, *steady, periodic[0])) return splines_over(record, {0, n});
   const double begins = time[steady->first];
   const double ends = time[steady->last - 1];
   const double overlap = 0.25 * steady->period;
