@@ -108,9 +108,9 @@ Estimate given_estimate(const GivenResiduals& problem, const LeastSquaresSolutio
   Eigen::Index row = 0;
   for (const GivenRecord& one : records) {
     const auto height = static_cast<Eigen::Index>(one.rows.size());
-    estimate.fits.push_back(
-        {one.record.id, Split::train,
-         linear.residual.segment(row, height).norm() / std::sqrt(static_cast<double>(height))});
+    estimate.fits.push_back({one.record.id, Split::train,
+                             linear.residual.segment(row, height).norm() /
+                                 (one.weight * std::sqrt(static_cast<double>(height)))});
     row += height;
   }
   estimate.identifiability = judge(problem, solution, linear, std::sqrt(variance));

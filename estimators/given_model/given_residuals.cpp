@@ -38,13 +38,40 @@ void thin(GivenRecord& one, std::size_t most) {
   thin(one.record.valid, stride);
 }
 
-GivenParameter zero_of(const GivenRecord& one) {
+std::size_t valid_samples(const TorsionRecord& record) {
+  if (record.valid.empty()) return record.time.size();
+  return static_cast<std::size_t>(std::ranges::count(record.valid, true));
+}
+
+/// How many samples each residual of the records stands for, made one in the mean.
+void weigh(std::vector<GivenRecord>& records, const std::vector<std::size_t>& samples) {
+  double all_samples = 0.0;
+  double all_rows = 0.0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    all_samples += static_cast<double>(samples[i]);
+    all_rows += static_cast<double>(records[i].rows.size());
+  }
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double stands_for =
+        static_cast<double>(samples[i]) / static_cast<double>(records[i].rows.size());
+    if (!records[i].rows.empty())
+      records[i].weight = std::sqrt(stands_for * all_rows / all_samples);
+  }
+}
+
+double span_of(const GivenRecord& one) {
+  const auto [low, high] = std::ranges::minmax(one.motion.position);
+  return high - low;
+}
+
+/// A small motion may lie anywhere along the longest one, far from its own middle.
+GivenParameter zero_of(const GivenRecord& one, double longest) {
   const auto [low, high] = std::ranges::minmax(one.motion.position);
   return {.name = "zero[" + one.record.id + "]",
           .unit = one.record.linear ? "m" : "rad",
           .start = 0.5 * (low + high),
-          .lower = low,
-          .upper = high};
+          .lower = high - longest,
+          .upper = low + longest};
 }
 
 }  // namespace
@@ -52,6 +79,7 @@ GivenParameter zero_of(const GivenRecord& one) {
 Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
                                                std::size_t most_rows, std::size_t most_path) {
   std::vector<GivenRecord> list;
+  std::vector<std::size_t> samples;
   for (const TorsionRecord& record : records) {
     auto smooth = reconstruct(record);
     if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + record.id));
@@ -59,7 +87,9 @@ Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>&
     thin(one, most_path);
     one.rows = rows_of(one.record, most_rows);
     list.push_back(std::move(one));
+    samples.push_back(valid_samples(record));
   }
+  weigh(list, samples);
   return list;
 }
 
@@ -72,8 +102,10 @@ GivenResiduals::GivenResiduals(const ModelSpec& model, std::vector<GivenParamete
     free_.push_back(k);
     unknowns_.push_back(std::move(parameters[k]));
   }
+  double longest = 0.0;
+  for (const GivenRecord& one : records) longest = std::max(longest, span_of(one));
   for (std::size_t i = 0; each_zero && i < records.size(); ++i) {
-    unknowns_.push_back(zero_of(records[i]));
+    unknowns_.push_back(zero_of(records[i], longest));
   }
   for (const GivenParameter& one : unknowns_) sizes_.push_back(std::abs(one.start));
 }
@@ -118,7 +150,8 @@ Result<void> GivenResiduals::evaluate(std::size_t block, std::span<const double>
   const auto at = predict(block, q);
   if (!at) return tl::unexpected(at.error());
   const std::vector<double> target = measured(block);
-  for (std::size_t i = 0; i < target.size(); ++i) residual[i] = target[i] - (*at)[i];
+  const double weight = records_[block].weight;
+  for (std::size_t i = 0; i < target.size(); ++i) residual[i] = weight * (target[i] - (*at)[i]);
   if (jacobian.empty()) return {};
   std::ranges::fill(jacobian, 0.0);
   const std::size_t n = unknowns_.size();
@@ -136,7 +169,7 @@ Result<void> GivenResiduals::evaluate(std::size_t block, std::span<const double>
     if (!up) return tl::unexpected(up.error());
     if (!down) return tl::unexpected(down.error());
     for (std::size_t i = 0; i < target.size(); ++i) {
-      jacobian[i * n + k] = -((*up)[i] - (*down)[i]) / (above - below);
+      jacobian[i * n + k] = -weight * ((*up)[i] - (*down)[i]) / (above - below);
     }
   }
   return {};

@@ -15,7 +15,11 @@ constexpr double kSignedReach = 10.0;  // sizes either way, of shapes that have 
 
 using Point = std::vector<double>;
 
-/// Predictions of all recordings, one below the other.
+void append(std::vector<double>& all, const std::vector<double>& part, double weight) {
+  for (const double value : part) all.push_back(weight * value);
+}
+
+/// Predictions of all recordings, one below the other, times their weights.
 class Predictor {
  public:
   explicit Predictor(const GivenResiduals& problem) : problem_(problem) {}
@@ -25,7 +29,7 @@ class Predictor {
     for (std::size_t b = 0; b < problem_.blocks(); ++b) {
       const auto part = problem_.predict(b, q);
       if (!part) return tl::unexpected(part.error());
-      all.insert(all.end(), part->begin(), part->end());
+      append(all, *part, problem_.weight(b));
     }
     return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
   }
@@ -134,8 +138,7 @@ SeparableBlock block_at(const Predictor& predict, const GivenResiduals& problem,
 Eigen::VectorXd measured_of(const GivenResiduals& problem) {
   std::vector<double> all;
   for (std::size_t b = 0; b < problem.blocks(); ++b) {
-    const auto part = problem.measured(b);
-    all.insert(all.end(), part.begin(), part.end());
+    append(all, problem.measured(b), problem.weight(b));
   }
   return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }

@@ -43,8 +43,21 @@ double golden_section(const Function& value, double low, double high) {
   return 0.5 * (low + high);
 }
 
-double search_zero(const ModelSpec& model, const Motion& motion, const ComparedSeries& series) {
-  const auto [low, high] = std::ranges::minmax(motion.position);
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void take_in(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+};
+
+/// Within the motion and the zeros of other recordings: a small motion may be far from its own.
+double search_zero(const ModelSpec& model, const Motion& motion, const ComparedSeries& series,
+                   Interval known) {
+  for (const double x : motion.position) known.take_in(x);
+  const auto [low, high] = known;
   constexpr int kSteps = 40;
   const double step = (high - low) / kSteps;
   double best = low;
@@ -65,15 +78,17 @@ Result<double> recording_zero(const Estimate& estimate, const std::string& id, c
                               const ComparedSeries& series) {
   double sum = 0.0;
   int count = 0;
+  Interval known;
   for (const ParameterEstimate& parameter : estimate.parameters) {
     if (!parameter.name.starts_with(kPrefix)) continue;
     if (parameter.name == std::string(kPrefix) + id + "]") return parameter.value;
     sum += parameter.value;
+    known.take_in(parameter.value);
     ++count;
   }
   if (count == 0) return 0.0;
   const bool virtual_bench = !series.truth.empty();
-  return virtual_bench ? sum / count : search_zero(estimate.model, motion, series);
+  return virtual_bench ? sum / count : search_zero(estimate.model, motion, series, known);
 }
 
 }  // namespace flexspline::studies

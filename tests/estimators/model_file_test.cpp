@@ -40,12 +40,14 @@ const ModelSpec kStart = spring_with(
      {"torque_sensor_offset", {{"offset", 0.0}}}});
 
 /// Two sines of other amplitudes and frequencies, one after the other, from a zero of their own.
-TorsionRecord along(const ModelSpec& model, double amplitude, double omega, double zero) {
+TorsionRecord along(const ModelSpec& model, double amplitude, double omega, double zero,
+                    double middle = 0.0) {
   Motion motion;
   for (int k = 0; k < 1200; ++k) {
     const double t = 0.01 * k;
     motion.time.push_back(t);
-    motion.position.push_back(amplitude * (std::sin(omega * t) + 0.3 * std::sin(2.7 * omega * t)));
+    motion.position.push_back(middle +
+                              amplitude * (std::sin(omega * t) + 0.3 * std::sin(2.7 * omega * t)));
     motion.velocity.push_back(amplitude * omega *
                               (std::cos(omega * t) + 0.81 * std::cos(2.7 * omega * t)));
     motion.acceleration.push_back(-amplitude * omega * omega *
@@ -100,6 +102,29 @@ TEST(ModelFile, EveryRecordingMayHaveItsOwnZero) {
   ASSERT_TRUE(estimate) << estimate.error().message();
   EXPECT_NEAR(value_of(*estimate, "zero[" + problem.records[0].id + "]"), 0.5, 5e-4);
   EXPECT_NEAR(value_of(*estimate, "zero[" + problem.records[1].id + "]"), -0.2, 5e-4);
+}
+
+TEST(ModelFile, ZeroOfASmallMotionMayBeFarFromIt) {
+  auto problem = problem_of(kStart);
+  problem.records = {along(kTruth, 0.08, 1.3, 0.0), along(kTruth, 0.01, 2.1, 0.2, 0.06)};
+  problem.options.words["zero"] = "each";
+  const auto estimate = fitted(problem);
+  ASSERT_TRUE(estimate) << estimate.error().message();
+  EXPECT_NEAR(value_of(*estimate, "zero[" + problem.records[1].id + "]"), 0.2, 5e-4);
+}
+
+// Of an offset alone least squares is the mean over all samples, 0.4 and 1.4 by their numbers,
+// however the longer recording is thinned.
+TEST(ModelFile, EverySampleCountsTheSame) {
+  auto problem = problem_of(kTruth);
+  problem.model->hold = {"f", "g_inverse", "stribeck_friction", "presliding_hysteresis"};
+  TorsionRecord& brief = problem.records[1];
+  for (auto* series : {&brief.time, &brief.motion, &brief.effort}) series->resize(300);
+  for (double& torque : brief.effort) torque += 1.0;
+  problem.options.numbers["samples"] = 300;
+  const auto estimate = fitted(problem);
+  ASSERT_TRUE(estimate) << estimate.error().message();
+  EXPECT_NEAR(value_of(*estimate, "torque_sensor_offset.offset"), 0.4 + 300.0 / 1500.0, 2e-3);
 }
 
 TEST(ModelFile, WhatIsHeldStaysAndWidthsAreHeldUnlessFreed) {
