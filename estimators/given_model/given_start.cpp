@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kProbe = 0.3;         // of an unknown's size
 constexpr double kAffine = 1e-7;       // curvature over change that counts as none
+constexpr double kDependent = 1e-6;    // share of a column that others leave
 constexpr double kReach = 30.0;        // factor either way within which shapes are sought
 constexpr double kSignedReach = 10.0;  // sizes either way, of shapes that have a sign
 
@@ -84,6 +85,28 @@ Result<std::vector<bool>> affine_unknowns(const GivenResiduals& problem, const P
   return affine;
 }
 
+/// Those of the affine unknowns whose columns are no combination of columns before them; the others
+/// stay at their starts until what tells them apart joins the model.
+Result<std::vector<bool>> told_apart(const Predictor& predict, const Point& start,
+                                     const GivenResiduals& problem, std::vector<bool> affine) {
+  const auto base = predict.at(start);
+  if (!base) return tl::unexpected(base.error());
+  std::vector<Eigen::VectorXd> directions;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    if (!affine[k]) continue;
+    Point q = start;
+    q[k] += probe_of(problem.unknowns()[k]);
+    const auto moved = predict.at(q);
+    if (!moved) return tl::unexpected(moved.error());
+    Eigen::VectorXd column = *moved - *base;
+    const double size = column.norm();
+    for (const auto& one : directions) column -= one.dot(column) * one;
+    affine[k] = column.norm() > kDependent * size;
+    if (affine[k]) directions.push_back(column.normalized());
+  }
+  return affine;
+}
+
 /// A shape's place in the search: in the logarithm where it has one sign.
 struct Place {
   std::size_t unknown;
@@ -151,16 +174,18 @@ Result<std::vector<double>> given_start(const GivenResiduals& problem, int most_
   for (const GivenParameter& one : problem.unknowns()) start.push_back(one.start);
   const auto affine = affine_unknowns(problem, predict, start);
   if (!affine) return tl::unexpected(affine.error());
+  const auto linear_in = told_apart(predict, start, problem, *affine);
+  if (!linear_in) return tl::unexpected(linear_in.error());
   std::vector<std::size_t> linear;
   std::vector<Place> shapes;
   SeparableProblem separable;
   std::vector<double> lower;
   for (std::size_t k = 0; k < start.size(); ++k) {
     const GivenParameter& one = problem.unknowns()[k];
-    if ((*affine)[k]) {
+    if ((*linear_in)[k]) {
       linear.push_back(k);
       lower.push_back(one.lower);
-    } else {
+    } else if (!(*affine)[k]) {
       shapes.push_back(place_of(one, k));
       separable.shapes.push_back(shapes.back().bound);
     }

@@ -127,6 +127,28 @@ TEST(ModelFile, EverySampleCountsTheSame) {
   EXPECT_NEAR(value_of(*estimate, "torque_sensor_offset.offset"), 0.4 + 300.0 / 1500.0, 2e-3);
 }
 
+// The level of a spline and an offset are one number but for friction that grows with the load,
+// which joins them only after the start.
+TEST(ModelFile, StartDoesNotRunAwayAlongWhatOnlyLoadTellsApart) {
+  const auto model = [](double level, double offset, double growth) {
+    ModelSpec spec =
+        spring_with({{"load_dependent_friction",
+                      {{"coefficient", growth}, {"smoothing", 0.004}, {"load_smoothing", 0.1}}},
+                     {"torque_sensor_offset", {{"offset", offset}}}});
+    spec.f = {.law = "free_spline", .scale = 0.1, .knots = {-1.5, 1.5}, .coefficients = {}};
+    for (int k = 0; k < 6; ++k) spec.f.coefficients.push_back(level + 0.6 * k);
+    return spec;
+  };
+  auto problem = problem_of(model(1.0, 0.0, 0.1));
+  problem.model->hold = {"g_inverse"};
+  const auto truth = model(0.5, 0.8, 0.2);
+  problem.records = {along(truth, 0.08, 1.3, 0.0), along(truth, 0.03, 2.1, 0.0)};
+  const auto estimate = fitted(problem);
+  ASSERT_TRUE(estimate) << estimate.error().message();
+  EXPECT_NEAR(value_of(*estimate, "torque_sensor_offset.offset"), 0.8, 0.02);
+  EXPECT_NEAR(value_of(*estimate, "load_dependent_friction.coefficient"), 0.2, 5e-3);
+}
+
 TEST(ModelFile, WhatIsHeldStaysAndWidthsAreHeldUnlessFreed) {
   auto problem = problem_of(kStart);
   problem.model->hold = {"presliding_hysteresis", "f[1]"};
