@@ -29,6 +29,26 @@ Result<void> hold_out(RecordingSet& set, const std::vector<std::string>& ids) {
   return {};
 }
 
+tl::unexpected<Error> no_option(const std::string& given) {
+  return failure(ErrorCode::bad_data, fmt::format("a servo's fit has no option {}", given),
+                 "it has duty=recorded or loop, and loss=squared or absolute");
+}
+
+Result<estimators::ServoSettings> settings_of(const estimators::Options& options) {
+  estimators::ServoSettings settings;
+  for (const auto& [name, value] : options.words) {
+    if (name == "duty" && value == "loop") {
+      settings.duty = estimators::ServoDuty::loop;
+    } else if (name == "loss" && value == "absolute") {
+      settings.loss = estimators::ServoLoss::absolute;
+    } else if (name + "=" + value != "duty=recorded" && name + "=" + value != "loss=squared") {
+      return no_option(name + "=" + value);
+    }
+  }
+  if (options.numbers.empty()) return settings;
+  return no_option(options.numbers.begin()->first);
+}
+
 /// Errors of the simulated angle over one recording, rad.
 struct AngleError {
   double rms = kNotComputed;
@@ -51,13 +71,15 @@ ordered_json number_or_null(double value) {
 }
 
 /// The estimate with errors of every recording; one that cannot be simulated has null and says why.
-ordered_json judged(const estimators::ServoFit& fit, const RecordingSet& set) {
+ordered_json judged(const estimators::ServoFit& fit, const RecordingSet& set,
+                    const estimators::ServoSettings& settings) {
   estimators::ServoFit known = fit;
   ordered_json errors[2] = {
       {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}},
       {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}}};
   for (const Recording& one : set.recordings) {
-    const auto angle = estimators::simulate_servo(fit.drive, one);
+    const auto angle =
+        estimators::simulate_servo(fit.drive, one, settings.tolerance, settings.duty);
     if (!angle) known.estimate.notes.push_back(angle.error().message());
     const AngleError error =
         angle ? compared(*angle, *one.find(Quantity::load_angle)) : AngleError{};
@@ -92,13 +114,16 @@ std::string summary_of(const ordered_json& estimate) {
 
 Result<ExitCode> fit_servo_set(RecordingSet set, const estimators::GivenModel& model,
                                const std::optional<std::vector<std::string>>& held_out,
+                               const estimators::Options& options,
                                const std::filesystem::path& folder, Console& console) {
   if (held_out) {
     if (auto held = hold_out(set, *held_out); !held) return tl::unexpected(held.error());
   }
-  const auto fit = estimators::fit_servo(set, model);
+  const auto settings = settings_of(options);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto fit = estimators::fit_servo(set, model, *settings);
   if (!fit) return tl::unexpected(fit.error());
-  const ordered_json estimate = judged(*fit, set);
+  const ordered_json estimate = judged(*fit, set, *settings);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (auto written = data::write_model(folder / "model.toml", fit->estimate.model); !written) {

@@ -5,11 +5,13 @@
 #include <optional>
 
 #include "diagnosis/explanation.hpp"
+#include "diagnosis/form_error.hpp"
 
 namespace flexspline::studies {
 namespace {
 
 constexpr int kRefreshSteps = 8;
+constexpr int kRefineSteps = 12;
 
 double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
   double rise = 0.0;
@@ -31,20 +33,26 @@ bool share_equation(const Accepted& a, const Accepted& b) {
   });
 }
 
-// Of two causes in one equation, what a small one explains may be no more than the form of the
-// large one.
-bool in_the_shadow(const Selection& s, std::size_t i, const std::vector<double>& loss,
-                   const Limits& limits) {
+// Whether what a small cause explains may be no more than the form of a larger one of its equation.
+bool hides(const Frame& frame, const Selection& s, std::size_t large, std::size_t small,
+           const std::vector<double>& loss, const Limits& limits) {
+  const Accepted& a = s.accepted[small];
+  const Accepted& b = s.accepted[large];
+  if (large == small || !share_equation(a, b)) return false;
+  if (!stands_for(a, b) && !stands_for(b, a)) return loss[small] < limits.shadow * loss[large];
+  const double share = loss[small] / std::max(a.first_gain, b.first_gain);
+  if (share < limits.twin_shadow) return true;
+  return share < 2.0 * limits.twin_shadow &&
+         share_beyond_form(frame, s.final, small, large) < limits.twin_shadow;
+}
+
+// The larger cause that hides another.
+std::optional<std::size_t> shadow_on(const Frame& frame, const Selection& s, std::size_t i,
+                                     const std::vector<double>& loss, const Limits& limits) {
   for (std::size_t k = 0; k < s.accepted.size(); ++k) {
-    const Accepted& small = s.accepted[i];
-    const Accepted& large = s.accepted[k];
-    if (k == i || !share_equation(small, large)) continue;
-    const bool twins = stands_for(small, large) || stands_for(large, small);
-    const double limit = twins ? limits.twin_shadow : limits.shadow;
-    const double worth = twins ? std::max(small.first_gain, large.first_gain) : loss[k];
-    if (loss[i] < limit * worth) return true;
+    if (hides(frame, s, k, i, loss, limits)) return k;
   }
-  return false;
+  return std::nullopt;
 }
 
 /// What each accepted cause is worth beside the others.
@@ -65,6 +73,25 @@ Result<Worth> worth_of_each(const Frame& frame, Selection& s) {
   return worth;
 }
 
+// No model is worse than one that it contains: where it seems so, its fit was caught in a local
+// optimum, and starts again from the smaller one's. The cause moves to the end of the model. True
+// where that helped.
+bool fitted_better(const Frame& frame, const Limits& limits, Selection& s, const Worth& worth) {
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    if (!(worth.loss[i] < 0.0)) continue;
+    Findings smaller = s.final;
+    smaller.fit = worth.without[i];
+    auto again = extended(frame, smaller, s.accepted[i].trial.cause, kRefineSteps);
+    if (!again) continue;
+    if (!(chi_square_rise(frame, s.final, *again) < worth.loss[i] - limits.net_gain)) continue;
+    s.final.fit = std::move(*again);
+    const auto at = s.accepted.begin() + static_cast<long>(i);
+    std::rotate(at, at + 1, s.accepted.end());
+    return true;
+  }
+  return false;
+}
+
 bool leaves_something(const Frame& frame, Findings findings, const ModelFit& fit,
                       const Limits& limits) {
   findings.fit = fit;
@@ -78,8 +105,16 @@ struct Needless {
   std::string_view because;
 };
 
-// The least first. One in the shadow of a larger one stays if nothing is left with it, and
-// something without it: no error of form is as orderly.
+// One in a shadow stays where nothing is left with it, and something without it or a worth beyond
+// doubt, which no error in the form of the larger one explains.
+bool stays(const Frame& frame, const Limits& limits, const Selection& s, const Worth& worth,
+           std::size_t cause, std::size_t large) {
+  return (worth.loss[cause] > limits.apart ||
+          leaves_something(frame, s.final, worth.without[cause], limits)) &&
+         share_beyond_form(frame, s.final, cause, large) > limits.beyond_form;
+}
+
+// The least first.
 Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
                   const Worth& worth) {
   std::vector<std::size_t> order(worth.loss.size());
@@ -90,8 +125,9 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
   }
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
   for (std::size_t i : order) {
-    if (!in_the_shadow(s, i, worth.loss, limits)) return {};
-    if (complete && leaves_something(frame, s.final, worth.without[i], limits)) continue;
+    const auto large = shadow_on(frame, s, i, worth.loss, limits);
+    if (!large) return {};
+    if (complete && stays(frame, limits, s, worth, i, *large)) continue;
     return {i, "what it explains is no more than the form of a larger one may miss"};
   }
   return {};
@@ -100,9 +136,14 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
 }  // namespace
 
 Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selection& s) {
+  std::size_t chances = s.accepted.size();
   while (s.accepted.size() > 1) {
     auto worth = worth_of_each(frame, s);
     if (!worth) return tl::unexpected(worth.error());
+    if (chances > 0 && fitted_better(frame, limits, s, *worth)) {
+      --chances;
+      continue;
+    }
     const auto [cause, because] = needless(frame, limits, s, *worth);
     if (!cause) return {};
     s.final.fit = std::move(worth->without[*cause]);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <random>
 
+#include "diagnosis/folds.hpp"
+
 namespace flexspline::studies {
 namespace {
 
@@ -14,12 +16,6 @@ using Eigen::Index;
 constexpr int kSteps = 8;
 constexpr int kResamples = 400;
 constexpr Index kBlocksOfRecording = 8;
-constexpr double kReach = 1.05;  // of what was fitted: beyond it a law is extrapolated
-
-bool marked(const Frame& frame) {
-  return std::ranges::any_of(frame.segments,
-                             [](const Segment& s) { return s.split == Split::holdout; });
-}
 
 // The cause that does worst on recordings held out, of those that would have shown there.
 std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
@@ -30,59 +26,6 @@ std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits)
     if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;
   }
   return worst;
-}
-
-// What a law is fitted to has to reach as far as what it is judged on.
-bool reaches_furthest(const Frame& frame, const Segment& s) {
-  const auto furthest = [&](const ArrayXd& x) {
-    const ArrayXd size = x.abs() * frame.usable;
-    const double most = size.maxCoeff();
-    return most > 0.0 && size.segment(s.first, s.count).maxCoeff() >= most;
-  };
-  return furthest(frame.torsion) || furthest(frame.torsion_rate) || furthest(frame.motor_speed) ||
-         furthest(frame.torque) || s.first == 0;
-}
-
-// One in three of those that reach nowhere furthest, in the order of their fastest motion.
-std::vector<std::size_t> unmarked_choice(const Frame& frame) {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-    const Segment& s = frame.segments[i];
-    if (reaches_furthest(frame, s)) continue;
-    const ArrayXd& speed = frame.rig == Rig::free ? frame.load_speed : frame.torsion_rate;
-    order.emplace_back(speed.segment(s.first, s.count).abs().maxCoeff(), i);
-  }
-  std::ranges::sort(order);
-  const std::size_t wanted = std::max<std::size_t>(1, frame.segments.size() / 3);
-  const std::size_t step = std::max<std::size_t>(1, order.size() / wanted);
-  std::vector<std::size_t> chosen;
-  for (std::size_t k = step / 2; k < order.size() && chosen.size() < wanted; k += step) {
-    chosen.push_back(order[k].second);
-  }
-  return chosen;
-}
-
-// Where every recording reaches further than the others in something: the end of each.
-ArrayXd ends(const Frame& frame) {
-  ArrayXd rows = ArrayXd::Zero(frame.rows());
-  for (const Segment& s : frame.segments) {
-    const Index count = s.count / 3;
-    rows.segment(s.first + s.count - count, count).setOnes();
-  }
-  return rows;
-}
-
-bool within_reach(const Frame& frame, const ArrayXd& held) {
-  const auto reached = [&](const ArrayXd& x) {
-    const ArrayXd size = x.abs() * frame.usable;
-    return (size * held).maxCoeff() <= kReach * (size * (1.0 - held)).maxCoeff();
-  };
-  return reached(frame.torsion) && reached(frame.torsion_rate) && reached(frame.motor_speed) &&
-         reached(frame.torque);
-}
-
-void mask(const Frame& frame, ArrayXd& rows, std::size_t segment) {
-  rows.segment(frame.segments[segment].first, frame.segments[segment].count).setOnes();
 }
 
 /// Findings whose weights leave the held-out rows out of the fit.
@@ -147,59 +90,117 @@ void resample(const Blocks& blocks, HoldoutProof& proof) {
   proof.ci95_upper = ratios[kResamples - 1 - kResamples / 40];
 }
 
-// The best of the causes that were tried and are not there.
-Result<double> placebo(const Frame& frame, const Selection& s, const Findings& training,
-                       const ArrayXd& rows, std::size_t e, double before) {
-  if (s.accepted.front().field.empty()) return kNotComputed;
-  Findings other = training;
-  other.fit = s.accepted.front().field.front().fit;
-  if (other.fit.residual[e].size() == 0) return kNotComputed;
-  const auto fit = refitted(frame, other);
-  if (!fit) return tl::unexpected(fit.error());
-  return rms_on(fit->residual[e], rows) / before;
+Equation first_equation_of(const Frame& frame, const Accepted& accepted) {
+  for (Equation at : accepted.trial.cause.form->at) {
+    if (frame.has(at)) return at;
+  }
+  return accepted.trial.cause.form->at.front();
 }
 
-Result<void> prove_causes(const Frame& frame, const Selection& s, const Findings& final,
-                          const Findings& base, const ArrayXd& out, Proof& proof) {
+/// Residuals of the models compared, every held-out row by the fit that did not see it; 0
+/// elsewhere.
+struct HeldOut {
+  PerEquation base, final, placebo;
+  std::vector<ArrayXd> without;  ///< of the final model less each cause, in that cause's equation
+  std::vector<ArrayXd> change;   ///< of its prediction there
+  double train_before = 0.0;     ///< sums of squares of the equation to prove, all folds
+  double train_after = 0.0;
+  double train_rows = 0.0;
+};
+
+void take(PerEquation& pool, const PerEquation& residual, const ArrayXd& rows) {
+  for (std::size_t e = 0; e < pool.size(); ++e) {
+    if (residual[e].size() > 0) pool[e] += residual[e] * rows;
+  }
+}
+
+HeldOut nothing_yet(const Frame& frame, const Selection& s) {
+  const ArrayXd zero = ArrayXd::Zero(frame.rows());
+  const PerEquation each = {zero, zero, zero};
+  return {each, each, each, {s.accepted.size(), zero}, {s.accepted.size(), zero}};
+}
+
+Result<void> take_causes(const Frame& frame, const Selection& s, const Findings& final,
+                         const ArrayXd& rows, HeldOut& pool) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    Equation equation = s.accepted[i].trial.cause.form->at.front();
-    for (Equation at : s.accepted[i].trial.cause.form->at) {
-      if (frame.has(at)) {
-        equation = at;
-        break;
-      }
-    }
-    const std::size_t e = index_of(equation);
-    const ArrayXd rows = out * frame.usable;
+    const std::size_t e = index_of(first_equation_of(frame, s.accepted[i]));
     const auto without = reduced(frame, final, s.immaterial.size() + i, kSteps);
     if (!without) return tl::unexpected(without.error());
-    proof.cause_ratio.push_back(rms_on(final.fit.residual[e], rows) /
-                                rms_on(without->residual[e], rows));
-    const ArrayXd change = final.fit.prediction[e] - without->prediction[e];
-    const ArrayXd weight = weights_of(frame, final.noise[e].level) * rows;
-    proof.cause_shown.push_back((change * weight).square().sum() / final.noise[e].colour);
-    const auto instead = placebo(frame, s, base, rows, e, rms_on(base.fit.residual[e], rows));
-    proof.placebo_ratio.push_back(instead ? *instead : kNotComputed);
+    pool.without[i] += without->residual[e] * rows;
+    pool.change[i] += (final.fit.prediction[e] - without->prediction[e]) * rows;
   }
   return {};
 }
 
-}  // namespace
-
-ArrayXd held_out(const Frame& frame) {
-  ArrayXd rows = ArrayXd::Zero(frame.rows());
-  if (marked(frame)) {
-    for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-      if (frame.segments[i].split == Split::holdout) mask(frame, rows, i);
-    }
-    return rows;
-  }
-  const auto chosen = unmarked_choice(frame);
-  for (std::size_t i : chosen) mask(frame, rows, i);
-  if (!chosen.empty()) return rows;
-  const ArrayXd last = ends(frame);
-  return within_reach(frame, last) ? last : rows;
+// The best of the causes that were tried and are not there.
+Result<void> take_placebo(const Frame& frame, const Selection& s, Findings base,
+                          const ArrayXd& rows, HeldOut& pool) {
+  if (s.accepted.empty() || s.accepted.front().field.empty()) return {};
+  base.fit = s.accepted.front().field.front().fit;
+  const auto fit = refitted(frame, base);
+  if (!fit) return tl::unexpected(fit.error());
+  take(pool.placebo, fit->residual, rows);
+  return {};
 }
+
+Result<void> take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, HeldOut& pool) {
+  Findings base = on_training(s.baseline, out);
+  base.weight = on_training(s.final, out).weight;
+  base.noise = s.final.noise;
+  auto base_fit = refitted(frame, base);
+  if (!base_fit) return tl::unexpected(base_fit.error());
+  base.fit = std::move(*base_fit);
+  Findings final = on_training(s.final, out);
+  auto final_fit = refitted(frame, final);
+  if (!final_fit) return tl::unexpected(final_fit.error());
+  final.fit = std::move(*final_fit);
+  const ArrayXd held = out * frame.usable;
+  const ArrayXd train = (1.0 - out) * frame.usable;
+  const std::size_t e = index_of(equation_to_prove(frame, s));
+  take(pool.base, base.fit.residual, held);
+  take(pool.final, final.fit.residual, held);
+  pool.train_before += (base.fit.residual[e].square() * train).sum();
+  pool.train_after += (final.fit.residual[e].square() * train).sum();
+  pool.train_rows += train.sum();
+  const auto causes = take_causes(frame, s, final, held, pool);
+  if (!causes) return causes;
+  return take_placebo(frame, s, base, held, pool);
+}
+
+void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
+                  Proof& proof) {
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    const std::size_t e = index_of(first_equation_of(frame, s.accepted[i]));
+    proof.cause_ratio.push_back(rms_on(pool.final[e], held) / rms_on(pool.without[i], held));
+    const ArrayXd weight = weights_of(frame, s.final.noise[e].level) * held;
+    proof.cause_shown.push_back((pool.change[i] * weight).square().sum() / s.final.noise[e].colour);
+    const double instead = rms_on(pool.placebo[e], held);
+    proof.placebo_ratio.push_back(instead > 0.0 ? instead / rms_on(pool.base[e], held)
+                                                : kNotComputed);
+  }
+}
+
+double noise_floor(const Frame& frame, const EquationNoise& noise, const ArrayXd& held) {
+  double variance = 0.0;
+  double rows = 0.0;
+  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
+    const double count = held.segment(frame.segments[i].first, frame.segments[i].count).sum();
+    variance += count * noise.level[i] * noise.level[i];
+    rows += count;
+  }
+  return rows > 0.0 ? std::sqrt(variance / rows) : kNotComputed;
+}
+
+// What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
+bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
+                       std::size_t cause) {
+  double chi_square = 0.0;
+  for (Equation equation : frame.equations) chi_square += s.final.chi_square(equation);
+  const double gain = s.accepted[cause].trial.gain;
+  return gain > limits.unproved * (chi_square + gain);
+}
+
+}  // namespace
 
 Equation equation_to_prove(const Frame& frame, const Selection& selection) {
   Equation first = frame.equations.front();
@@ -216,38 +217,23 @@ Equation equation_to_prove(const Frame& frame, const Selection& selection) {
 }
 
 Result<Proof> prove(const Frame& frame, const Selection& s) {
-  const ArrayXd out = held_out(frame);
-  const std::size_t e = index_of(equation_to_prove(frame, s));
-  Proof proof;
-  Findings base = on_training(s.baseline, out);
-  base.weight = on_training(s.final, out).weight;
-  base.noise = s.final.noise;
-  auto base_fit = refitted(frame, base);
-  if (!base_fit) return tl::unexpected(base_fit.error());
-  base.fit = std::move(*base_fit);
-  Findings final = on_training(s.final, out);
-  auto final_fit = refitted(frame, final);
-  if (!final_fit) return tl::unexpected(final_fit.error());
-  final.fit = std::move(*final_fit);
-  const ArrayXd held = out * frame.usable;
-  const ArrayXd train = (1.0 - out) * frame.usable;
-  HoldoutProof& h = proof.holdout;
-  h.rmse_before = rms_on(base.fit.residual[e], held);
-  h.rmse_after = rms_on(final.fit.residual[e], held);
-  h.ratio = h.rmse_after / h.rmse_before;
-  proof.rmse_train_before = rms_on(base.fit.residual[e], train);
-  proof.rmse_train_after = rms_on(final.fit.residual[e], train);
-  resample(blocks_of(frame, held, base.fit.residual[e], final.fit.residual[e]), h);
-  double variance = 0.0;
-  double rows = 0.0;
-  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-    const double count = held.segment(frame.segments[i].first, frame.segments[i].count).sum();
-    variance += count * s.final.noise[e].level[i] * s.final.noise[e].level[i];
-    rows += count;
+  HeldOut pool = nothing_yet(frame, s);
+  for (const ArrayXd& fold : folds_of(frame)) {
+    const auto taken = take_fold(frame, s, fold, pool);
+    if (!taken) return tl::unexpected(taken.error());
   }
-  h.noise_floor = rows > 0.0 ? std::sqrt(variance / rows) : kNotComputed;
-  const auto causes = prove_causes(frame, s, final, base, out, proof);
-  if (!causes) return tl::unexpected(causes.error());
+  const std::size_t e = index_of(equation_to_prove(frame, s));
+  const ArrayXd held = held_out(frame) * frame.usable;
+  Proof proof;
+  HoldoutProof& h = proof.holdout;
+  h.rmse_before = rms_on(pool.base[e], held);
+  h.rmse_after = rms_on(pool.final[e], held);
+  h.ratio = h.rmse_after / h.rmse_before;
+  h.noise_floor = noise_floor(frame, s.final.noise[e], held);
+  proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
+  proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
+  resample(blocks_of(frame, held, pool.base[e], pool.final[e]), h);
+  prove_causes(frame, s, pool, held, proof);
   if (e == index_of(Equation::motor)) {
     for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,
                           &proof.rmse_train_after}) {
@@ -263,6 +249,7 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
     if (!proof) return proof;
     const auto worst = unconfirmed(*proof, limits);
     if (!worst) return proof;
+    s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
     const auto left_out =
         leave_out(frame, limits, s, *worst, "it does not lower the error on recordings held out");
     if (!left_out) return tl::unexpected(left_out.error());

@@ -5,19 +5,12 @@
 
 namespace flexspline::studies {
 
-/// Which rows are held out: whole recordings, those that the data set marks; without marks a third
-/// of the recordings, spread over the order of their fastest motion, none that reaches furthest in
-/// torsion, rate, speed or torque: no law is judged where it has not been fitted. Where every
-/// recording reaches furthest in something, the last third of each; none where that would reach
-/// further than the rest.
-Eigen::ArrayXd held_out(const Frame& frame);
-
 /// The equation whose residual is the errors' unit: the transmitted torque where a cause acts on
 /// it, else that of the first cause.
 Equation equation_to_prove(const Frame& frame, const Selection& selection);
 
-/// Errors of the baseline and of the final model, both fitted to the rows that are not held out, on
-/// those that are. SI, at the output; the interval of the ratio by 400 resamplings of
+/// Errors of the baseline and of the final model on the rows that are held out, each row by fits to
+/// the other folds (folds_of). SI, at the output; the interval of the ratio by 400 resamplings of
 /// blocks of the held-out recordings.
 struct Proof {
   HoldoutProof holdout;

@@ -128,7 +128,7 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
     if (!done) return done;
     judge(frame, s);
   }
-  s.remainder = !stands || (!s.after.empty() && is_left(s.after.front(), limits)) ||
+  s.remainder = !stands || s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
                 worst_misfit(frame, s.final) > 2.0 * limits.misfit;
   return {};
 }

@@ -21,9 +21,12 @@ struct Limits {
   double remainder_share = 0.1;  ///< and the share of the residual it has to order
   double shadow = 0.03;          ///< gain over that of a larger cause of the same equation
   double twin_shadow = 0.1;      ///< the same over that of one that could stand for it
+  double apart = 1500.0;         ///< gain in a shadow that is beyond doubt,
+  double beyond_form = 0.4;      ///< with this share of it no error in the larger cause's form
   double explained = 0.75;       ///< share of the misfit that the causes have to remove
   double half = 0.5;             ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;           ///< mean square over noise that counts as explained
+  double unproved = 0.25;        ///< share of the misfit that an unproved cause cannot take quietly
   double held_out = 1.0;         ///< error on recordings held out with a cause over without it
   std::size_t causes = 4;        ///< more together are a stand-in for something without a name
   int rounds = 7;
@@ -51,7 +54,8 @@ struct Selection {
   std::vector<CoordinateScore> after;   ///< of the final residual
   double removed = 0.0;                 ///< share of the misfit that the causes remove
   bool remainder = false;               ///< something is left beyond noise
-  std::vector<Accepted> withdrawn;      ///< causes that explain too little to be named
+  bool unproved = false;  ///< a cause took much of the misfit, and none on recordings held out
+  std::vector<Accepted> withdrawn;  ///< causes that explain too little to be named
 };
 
 /// True for columns that the baseline counteracts: large, and larger than what is seen of them.

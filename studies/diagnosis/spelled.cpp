@@ -1,4 +1,5 @@
 #include "diagnosis/spelled.hpp"
+#include "diagnosis/folds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +134,15 @@ std::string proof_in_words(const HoldoutProof& proof) {
                      100.0 * proof.ratio);
 }
 
+std::string why_immaterial(const Trial& trial, const Limits& limits) {
+  if (trial.size < limits.size) {
+    return fmt::format("there, but {:.2g} % of torque is too small to be named",
+                       100.0 * trial.size);
+  }
+  return fmt::format("there, but a gain of {:.3g} in chi square is too small to be named",
+                     trial.net_gain);
+}
+
 }  // namespace
 
 std::string baseline_in_words(const Frame& frame) {
@@ -220,9 +230,7 @@ std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& lim
   std::vector<TriedCandidate> list;
   int round = 0;
   for (const Accepted& a : s.immaterial) {
-    list.push_back(tried(a.trial, ++round,
-                         fmt::format("there, but {:.2g} % of torque is too small to be named",
-                                     100.0 * a.trial.size)));
+    list.push_back(tried(a.trial, ++round, why_immaterial(a.trial, limits)));
   }
   for (const Accepted& a : s.accepted) add_round(a, ++round, limits, list);
   for (const Accepted& a : s.withdrawn) add_round(a, ++round, limits, list);

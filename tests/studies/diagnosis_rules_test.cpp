@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/explanation.hpp"
+#include "diagnosis/folds.hpp"
 #include "diagnosis/prove.hpp"
 #include "drive_frame.hpp"
 
@@ -63,6 +64,27 @@ TEST(HeldOut, WithoutMarksOneThatLiesWithinTheReachOfOthers) {
   const ArrayXd held = held_out(f);
   EXPECT_EQ(held.segment(3000, 1500).minCoeff(), 1.0);
   EXPECT_EQ(held.sum(), 1500.0);
+}
+
+// Nine recordings, the first of which reaches furthest in everything.
+TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
+  Frame f = closed_form_frame(9000);
+  f.segments.clear();
+  for (Index k = 0; k < 9; ++k) f.segments.push_back({"r", 1000 * k, 1000, Split::unassigned});
+  for (ArrayXd* x : {&f.torsion, &f.torsion_rate, &f.motor_speed, &f.torque}) {
+    *x = ArrayXd::Ones(9000) * 0.5;
+    x->head(1000).setOnes();
+  }
+  const auto folds = folds_of(f);
+  ASSERT_EQ(folds.size(), 3U);  // eight recordings, a third of nine at most in each
+  ArrayXd times = ArrayXd::Zero(9000);
+  for (const ArrayXd& fold : folds) {
+    EXPECT_LE(fold.sum(), 3000.0);
+    times += fold;
+  }
+  EXPECT_EQ(times.head(1000).maxCoeff(), 0.0);
+  EXPECT_EQ(times.tail(8000).minCoeff(), 1.0);
+  EXPECT_EQ(times.maxCoeff(), 1.0);
 }
 
 // Two recordings, each faster, or further, than the other.

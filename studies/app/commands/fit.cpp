@@ -115,14 +115,22 @@ Result<studies::StudyConfig> study_of(const Arguments& arguments,
   return study;
 }
 
+/// Whether a model is fitted to a servo, which has options of its own.
+bool on_servo(const Arguments& arguments) {
+  if (arguments.text("model").empty()) return false;
+  const auto set = data::load_dataset(arguments.text("dataset"));
+  return set && set->rig == Rig::servo;
+}
+
 /// A model file on a servo's recordings; nothing where the set is another rig's.
 std::optional<Result<ExitCode>> run_on_servo(const Arguments& arguments,
-                                             const studies::StudyConfig& study, Console& console) {
+                                             const studies::StudyConfig& study,
+                                             const estimators::Options& options, Console& console) {
   const auto& model = study.estimators.front().model;
   if (!model) return std::nullopt;
   auto set = data::load_dataset(arguments.text("dataset"));
   if (!set || set->rig != Rig::servo) return std::nullopt;
-  return fit_servo_set(std::move(*set), *model, study.inputs.front().held_out,
+  return fit_servo_set(std::move(*set), *model, study.inputs.front().held_out, options,
                        arguments.text("out"), console);
 }
 
@@ -131,9 +139,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!jobs) return tl::unexpected(jobs.error());
   const auto options = parse_options(arguments.texts("option"));
   if (!options) return tl::unexpected(options.error());
-  const auto study = study_of(arguments, *options);
+  const auto study = study_of(arguments, on_servo(arguments) ? estimators::Options{} : *options);
   if (!study) return tl::unexpected(study.error());
-  if (auto servo = run_on_servo(arguments, *study, console)) return *std::move(servo);
+  if (auto servo = run_on_servo(arguments, *study, *options, console)) return *std::move(servo);
   const std::filesystem::path folder = arguments.text("out");
   const std::string key =
       fmt::format("{}--{}--r0", study->inputs.front().id, study->estimators.front().id);

@@ -1,0 +1,95 @@
+#include "diagnosis/folds.hpp"
+
+#include <algorithm>
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr double kReach = 1.05;  // of what was fitted: beyond it a law is extrapolated
+
+bool marked(const Frame& frame) {
+  return std::ranges::any_of(frame.segments,
+                             [](const Segment& s) { return s.split == Split::holdout; });
+}
+
+// What a law is fitted to has to reach as far as what it is judged on.
+bool reaches_furthest(const Frame& frame, const Segment& s) {
+  const auto furthest = [&](const ArrayXd& x) {
+    const ArrayXd size = x.abs() * frame.usable;
+    const double most = size.maxCoeff();
+    return most > 0.0 && size.segment(s.first, s.count).maxCoeff() >= most;
+  };
+  return furthest(frame.torsion) || furthest(frame.torsion_rate) || furthest(frame.motor_speed) ||
+         furthest(frame.torque) || s.first == 0;
+}
+
+// Segments that reach nowhere furthest, dealt out in the order of their fastest motion.
+std::vector<std::vector<std::size_t>> dealt_out(const Frame& frame) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
+    const Segment& s = frame.segments[i];
+    if (reaches_furthest(frame, s)) continue;
+    const ArrayXd& speed = frame.rig == Rig::free ? frame.load_speed : frame.torsion_rate;
+    order.emplace_back(speed.segment(s.first, s.count).abs().maxCoeff(), i);
+  }
+  std::ranges::sort(order);
+  const std::size_t most = std::max<std::size_t>(1, frame.segments.size() / 3);
+  std::vector<std::vector<std::size_t>> hands((order.size() + most - 1) / most);
+  for (std::size_t k = 0; k < order.size(); ++k) hands[k % hands.size()].push_back(order[k].second);
+  return hands;
+}
+
+// Where every recording reaches further than the others in something: the end of each.
+ArrayXd ends(const Frame& frame) {
+  ArrayXd rows = ArrayXd::Zero(frame.rows());
+  for (const Segment& s : frame.segments) {
+    const Index count = s.count / 3;
+    rows.segment(s.first + s.count - count, count).setOnes();
+  }
+  return rows;
+}
+
+bool within_reach(const Frame& frame, const ArrayXd& held) {
+  const auto reached = [&](const ArrayXd& x) {
+    const ArrayXd size = x.abs() * frame.usable;
+    return (size * held).maxCoeff() <= kReach * (size * (1.0 - held)).maxCoeff();
+  };
+  return reached(frame.torsion) && reached(frame.torsion_rate) && reached(frame.motor_speed) &&
+         reached(frame.torque);
+}
+
+void mask(const Frame& frame, ArrayXd& rows, std::size_t segment) {
+  rows.segment(frame.segments[segment].first, frame.segments[segment].count).setOnes();
+}
+
+}  // namespace
+
+std::vector<ArrayXd> folds_of(const Frame& frame) {
+  const ArrayXd none = ArrayXd::Zero(frame.rows());
+  std::vector<ArrayXd> folds;
+  if (marked(frame)) {
+    folds.push_back(none);
+    for (std::size_t i = 0; i < frame.segments.size(); ++i) {
+      if (frame.segments[i].split == Split::holdout) mask(frame, folds.back(), i);
+    }
+    return folds;
+  }
+  for (const auto& hand : dealt_out(frame)) {
+    folds.push_back(none);
+    for (std::size_t i : hand) mask(frame, folds.back(), i);
+  }
+  if (!folds.empty()) return folds;
+  const ArrayXd last = ends(frame);
+  return {within_reach(frame, last) ? last : none};
+}
+
+ArrayXd held_out(const Frame& frame) {
+  ArrayXd rows = ArrayXd::Zero(frame.rows());
+  for (const ArrayXd& fold : folds_of(frame)) rows = rows.max(fold);
+  return rows;
+}
+
+}  // namespace flexspline::studies
