@@ -124,14 +124,14 @@ struct ServoForm {
 };
 
 constexpr ServoForm kForms[] = {
-    {"torque_driven", Feed::torque, false},    {"current_driven", Feed::current, false},
-    {"voltage_driven", Feed::voltage, false},  {"winding", Feed::winding, false},
-    {"compliant", Feed::torque, true},         {"compliant_current", Feed::current, true},
-    {"compliant_voltage", Feed::voltage, true}};
+    {"torque_driven", Feed::torque, false},        {"current_driven", Feed::current, false},
+    {"voltage_driven", Feed::voltage, false},      {"winding", Feed::winding, false},
+    {"position_loop", Feed::position_loop, false}, {"compliant", Feed::torque, true},
+    {"compliant_current", Feed::current, true},    {"compliant_voltage", Feed::voltage, true}};
 
 std::vector<std::string_view> positive_constants(const ServoForm& form) {
   std::vector<std::string_view> names = {"gear_ratio"};
-  if (form.feed == Feed::voltage || form.feed == Feed::winding) names.push_back("resistance");
+  if (form.feed != Feed::torque && form.feed != Feed::current) names.push_back("resistance");
   if (form.feed == Feed::winding) names.push_back("inductance");
   if (form.compliant) names.insert(names.end(), {"motor_inertia", "load_inertia"});
   return names;
@@ -152,6 +152,10 @@ Result<std::unique_ptr<RigSystem>> make(const DriveSpec& drive, const RigInputs&
   const ServoForm& wanted = found == std::end(kForms) ? kForms[0] : *found;
   const auto form = checked_form(row, drive, inputs, name, positive_constants(wanted));
   if (!form) return tl::unexpected(form.error());
+  if (wanted.feed == Feed::position_loop && !inputs.position_gain) {
+    return failure(ErrorCode::input_missing, "the servo's position loop is given no gain",
+                   "give position_gain, the duty cycle a radian of error");
+  }
   if (!(reflected_inertia(drive) + drive.load_inertia > 0.0)) {
     return failure(ErrorCode::bad_data, "servo: neither motor_inertia nor load_inertia is positive",
                    "give the inertia that turns");
@@ -198,6 +202,10 @@ RigRow describe_servo() {
                 {"current_driven", "tau_m = kt i", states, {Quantity::current}},
                 {"voltage_driven", "tau_m = kt (V - ke omega)/R", states, bridge},
                 {"winding", "with the inductance of the winding", winding, bridge},
+                {"position_loop",
+                 "V = supply clamp(kp (commanded_angle - theta), -1, 1)",
+                 states,
+                 {Quantity::commanded_angle, Quantity::supply_voltage}},
                 {"compliant", "eqs. (5)-(8) by motor_torque", two, {Quantity::motor_torque}},
                 {"compliant_current", "eqs. (5)-(8), tau_m = kt i", two, {Quantity::current}},
                 {"compliant_voltage", "eqs. (5)-(8), tau_m = kt (V - ke omega)/R", two, bridge}},

@@ -4,8 +4,9 @@
 
 namespace flexspline {
 
-/// What a servo's motor is fed with. winding: a voltage, through the inductance.
-enum class Feed { torque, current, voltage, winding };
+/// What a servo's motor is fed with. winding: a voltage, through the inductance; position_loop: the
+/// voltage that the servo's own proportional loop asks for.
+enum class Feed { torque, current, voltage, winding, position_loop };
 
 /// Without the channel drive_enabled a drive is on.
 inline bool enabled(const RigInputs& inputs, double t) {
@@ -18,6 +19,17 @@ inline double voltage(const RigInputs& inputs, double t) {
          input(inputs, Quantity::supply_voltage).value(t);
 }
 
+/// Of a loop with the gain of the inputs, whose bridge is full at a duty cycle of one.
+template <class S>
+S loop_voltage(const RigInputs& inputs, const S& angle, double t) {
+  const double supply = input(inputs, Quantity::supply_voltage).value(t);
+  const S duty =
+      inputs.position_gain->value(t) * (input(inputs, Quantity::commanded_angle).value(t) - angle);
+  if (real_part(duty) > 1.0) return S(supply);
+  if (real_part(duty) < -1.0) return S(-supply);
+  return supply * duty;
+}
+
 /// The motor's torque; a drive that is off carries no current. Not through the winding, whose
 /// current is a state.
 template <class S>
@@ -28,7 +40,9 @@ S fed_torque(const DriveAt<S>& at, const RigInputs& inputs, Feed feed, const Ins
   const S kt = at.constant(&DriveSpec::torque_constant);
   if (feed == Feed::current) return S(kt * input(inputs, Quantity::current).value(t));
   const S emf = at.constant(&DriveSpec::back_emf) * x.motor_speed;
-  return kt * (voltage(inputs, t) - emf) / at.constant(&DriveSpec::resistance);
+  const S fed =
+      feed == Feed::position_loop ? loop_voltage(inputs, x.load_angle, t) : S(voltage(inputs, t));
+  return kt * (fed - emf) / at.constant(&DriveSpec::resistance);
 }
 
 /// L i' = V - R i - ke omega; off, the current decays through the bridge.

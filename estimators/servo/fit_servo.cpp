@@ -14,7 +14,8 @@
 namespace flexspline::estimators {
 namespace {
 
-constexpr double kSigma = 0.03;  // rad: a size of the misfit, its factor is estimated
+constexpr double kMagnitude = 0.1;  // misfits beyond which an error costs its magnitude
+constexpr double kSigma = 0.03;     // rad: a size of the misfit, its factor is estimated
 
 /// The unknowns of a session and where each stands in the rig's parameter vector.
 struct Unknowns {
@@ -143,12 +144,12 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   if (!recordings) return tl::unexpected(recordings.error());
   const auto given = given_parameters(model);
   if (!given) return tl::unexpected(given.error());
-  const auto clock = servo_clock(*recordings);
+  const auto clock = servo_clock(*recordings, settings.duty);
   if (!clock) return tl::unexpected(clock.error());
   auto drive = servo_start(set, *recordings);
   if (!drive) return tl::unexpected(drive.error());
   drive->torsion = model.model;
-  auto rig = make_rig(Rig::servo, *drive, clock->inputs, "voltage_driven");
+  auto rig = make_rig(Rig::servo, *drive, clock->inputs, servo_form(settings.duty));
   if (!rig) return tl::unexpected(rig.error());
   const Unknowns unknowns = unknowns_of(*drive, (*rig)->parameter_list(), *given);
   const auto session = std::make_shared<ServoSession>(std::move(*rig), unknowns.targets);
@@ -163,6 +164,10 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   OdeFitSettings how{.integration_tolerance = settings.tolerance,
                      .max_iterations = settings.most_iterations};
   how.function_tolerance = 1e-5;
+  if (settings.loss == ServoLoss::absolute) {
+    how.loss = Loss::soft_l1;
+    how.loss_scale = kMagnitude;
+  }
   how.propose_recording = false;
   const auto fit = fit_ode(problem, OdeFitMethod::single_shooting, how);
   if (!fit) return tl::unexpected(fit.error());
@@ -178,10 +183,10 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
 }
 
 Result<std::vector<double>> simulate_servo(const DriveSpec& drive, const Recording& recording,
-                                           double tolerance) {
-  const auto clock = servo_clock({&recording});
+                                           double tolerance, ServoDuty duty) {
+  const auto clock = servo_clock({&recording}, duty);
   if (!clock) return tl::unexpected(clock.error());
-  const auto rig = make_rig(Rig::servo, drive, clock->inputs, "voltage_driven");
+  const auto rig = make_rig(Rig::servo, drive, clock->inputs, servo_form(duty));
   if (!rig) return tl::unexpected(rig.error());
   std::vector<double> initial = (*rig)->rest();
   initial[0] = recording.find(Quantity::load_angle)->front();

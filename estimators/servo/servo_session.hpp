@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "flexspline/core/rig.hpp"
+#include "flexspline/estimators/servo_fit.hpp"
 
 namespace flexspline::estimators {
 
@@ -13,8 +14,14 @@ struct ServoClock {
   std::vector<double> start;  ///< of each recording
 };
 
-/// Errors: input_missing, with the recording, where a channel is missing.
-Result<ServoClock> servo_clock(const std::vector<const Recording*>& recordings);
+/// The form of the rig that is driven so.
+constexpr std::string_view servo_form(ServoDuty duty) {
+  return duty == ServoDuty::recorded ? "voltage_driven" : "position_loop";
+}
+
+/// Errors: input_missing, with the recording, where a channel is missing; bad_data, where a duty
+/// cycle is not that of a proportional loop.
+Result<ServoClock> servo_clock(const std::vector<const Recording*>& recordings, ServoDuty duty);
 
 /// A rig of which some parameters are unknowns, one unknown serving several of them.
 class ServoSession final : public OdeSystem {

@@ -37,7 +37,8 @@ RigInputs every_input(const Form& form) {
            {Quantity::current, sine(4.0, 2.0)},
            {Quantity::duty_cycle, sine(0.5, 2.0)},
            {Quantity::supply_voltage, constant(12.0)}},
-          {}};
+          {},
+          constant(1.5)};
 }
 
 /// Rates as a function of all arguments, states then parameters.

@@ -61,6 +61,25 @@ TEST(Servo, StartsAsAMotorAtAVoltage) {
   }
 }
 
+// The loop asks for kp times the error, and for no more than the bridge can give.
+TEST(Servo, FollowsItsOwnPositionLoop) {
+  auto [drive, inputs] = voltage_step();
+  inputs.channels[Quantity::commanded_angle] = constant(0.3);
+  inputs.position_gain = constant(2.0);
+  const auto loop = made_rig(Rig::servo, drive, inputs, "position_loop");
+  const auto p = loop->parameter_vector();
+  for (const auto& [angle, duty] : {std::pair{0.05, 0.5}, {-0.4, 1.0}, {0.9, -1.0}}) {
+    inputs.channels[Quantity::duty_cycle] = constant(duty);
+    const auto fed = made_rig(Rig::servo, drive, inputs, "voltage_driven");
+    const std::vector<double> y{angle, 1.5};
+    EXPECT_DOUBLE_EQ(loop->instant(0.0, y, p).motor_torque, fed->instant(0.0, y, p).motor_torque);
+  }
+  inputs.position_gain.reset();
+  const auto refused = make_rig(Rig::servo, drive, inputs, "position_loop");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(), testing::HasSubstr("position loop is given no gain"));
+}
+
 // Both poles of motor and winding in closed form.
 TEST(Servo, StartsSlowerThroughItsWinding) {
   auto [drive, inputs] = voltage_step();

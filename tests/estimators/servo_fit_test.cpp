@@ -1,4 +1,5 @@
 // A servo's recordings, simulated with known constants: the constants come back.
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -92,6 +93,61 @@ TEST(ServoFit, BringsTheConstantsBack) {
   for (std::size_t i = 0; i < measured.size(); ++i)
     worst = std::max(worst, std::abs((*angle)[i] - measured[i]));
   EXPECT_LT(worst, 5e-3);
+}
+
+/// What a servo would record whose own loop follows a command with that gain.
+Recording looped(const std::string& id, double amplitude, double omega, double gain) {
+  Recording one = recording(id, 0.1, omega);
+  std::vector<double> goal;
+  for (const double t : one.time) goal.push_back(amplitude * std::sin(omega * t));
+  one.channels.erase(Quantity::drive_enabled);
+  one.channels[Quantity::commanded_angle] = goal;
+  auto& duty = one.channels[Quantity::duty_cycle];
+  auto& angle = one.channels[Quantity::load_angle];
+  std::ranges::fill(angle, 0.0);
+  // The gain is read off duty and error: any pair of this proportion will do before the simulation.
+  for (std::size_t i = 0; i < goal.size(); ++i) duty[i] = gain * goal[i];
+  angle = *simulate_servo(drive(), one, 1e-9, ServoDuty::loop);
+  for (std::size_t i = 0; i < goal.size(); ++i)
+    duty[i] = std::clamp(gain * (goal[i] - angle[i]), -1.0, 1.0);
+  return one;
+}
+
+TEST(ServoFit, BringsTheConstantsBackThroughTheServosOwnLoop) {
+  RecordingSet set = pendulum();
+  set.recordings = {looped("soft", 0.6, 2.0, 0.9), looped("stiff", 0.8, 4.0, 2.0)};
+  for (const ServoLoss loss : {ServoLoss::squared, ServoLoss::absolute}) {
+    const auto fit = fit_servo(set, {friction(0.01, 0.002, 0.05), {}, {}},
+                               {.tolerance = 1e-7, .duty = ServoDuty::loop, .loss = loss});
+    ASSERT_TRUE(fit) << fit.error().message();
+    EXPECT_NEAR(value_of(fit->estimate, "torque_constant"), 0.4, 4e-3);
+    EXPECT_NEAR(value_of(fit->estimate, "resistance"), 4.0, 0.04);
+    EXPECT_NEAR(value_of(fit->estimate, "coulomb_viscous_friction.coulomb"), 0.03, 1e-3);
+  }
+}
+
+// Torque constant, resistance and friction that differ: what the loop corrects stays small.
+TEST(ServoFit, LoopCorrectsWhatAModelMisses) {
+  const Recording one = looped("stiff", 0.8, 4.0, 2.0);
+  DriveSpec wrong = drive();
+  wrong.resistance *= 1.2;
+  const auto miss = [&](ServoDuty duty) {
+    const auto angle = simulate_servo(wrong, one, 1e-8, duty);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < angle->size(); ++i)
+      sum += std::abs((*angle)[i] - one.channels.at(Quantity::load_angle)[i]);
+    return sum;
+  };
+  EXPECT_LT(miss(ServoDuty::loop), 0.5 * miss(ServoDuty::recorded));
+}
+
+TEST(ServoFit, RefusesALoopThatDidNotRun) {
+  auto set = pendulum();
+  for (Recording& one : set.recordings)
+    one.channels[Quantity::commanded_angle].assign(one.time.size(), 0.2);
+  const auto fit = fit_servo(set, {friction(0.01, 0.0, 0.0), {}, {}}, {.duty = ServoDuty::loop});
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message(), HasSubstr("not in proportion"));
 }
 
 TEST(ServoFit, RefusesWhatItCannotScaleOrDrive) {

@@ -35,6 +35,8 @@ Signal sampled_signal(std::span<const double> time, std::span<const double> samp
 struct RigInputs {
   std::map<Quantity, Signal> channels;
   std::optional<Signal> load_torque;  ///< tau_L beyond the pendulum's, Nm at the output
+  /// Of a servo's own position loop: duty cycle a radian of commanded less true angle.
+  std::optional<Signal> position_gain{};
 };
 
 struct RigVariable {

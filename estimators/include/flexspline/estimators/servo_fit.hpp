@@ -12,14 +12,25 @@ struct ServoFit {
   DriveSpec drive;
 };
 
+/// Where the duty cycle comes from in a simulation: as recorded, or from the servo's own loop,
+/// duty = kp (commanded - simulated angle) within -1 and 1, which corrects what the model misses.
+/// kp of each recording comes from its duty cycle, commanded and measured angle.
+enum class ServoDuty { recorded, loop };
+
+/// What an error of the angle costs: its square, or nearly its magnitude (soft_l1 of a tenth of the
+/// misfit's size), for models whose errors are far from normal.
+enum class ServoLoss { squared, absolute };
+
 struct ServoSettings {
   int most_iterations = 40;
   std::size_t every = 4;  ///< every how manieth sample has a residual
   double tolerance = 1e-6;
+  ServoDuty duty = ServoDuty::recorded;
+  ServoLoss loss = ServoLoss::squared;
 };
 
 /// Output error of a servo: its angle is simulated from the first sample of every training
-/// recording on, by the duty cycle and the supply alone, and compared with the one measured (single
+/// recording on, by the duty cycle (or what the loop commands) and the supply alone, and compared with the one measured (single
 /// shooting, CVODES, Ceres). Unknown: torque constant (equal to that of the back-EMF, SI),
 /// resistance, motor inertia, and the parameters of the model's effects that are not held; its laws
 /// have no say, the transmission being rigid. Known: load_mass_kg and arm_length_m of the set, as a
@@ -32,6 +43,7 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
 /// The angle of a servo at a recording's instants, from its first sample on, rad.
 /// Errors: those of the integration.
 Result<std::vector<double>> simulate_servo(const DriveSpec& drive, const Recording& recording,
-                                           double tolerance = 1e-6);
+                                           double tolerance = 1e-6,
+                                           ServoDuty duty = ServoDuty::recorded);
 
 }  // namespace flexspline::estimators
