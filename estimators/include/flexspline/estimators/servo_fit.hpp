@@ -22,7 +22,7 @@ enum class ServoDuty { recorded, loop };
 enum class ServoLoss { squared, absolute };
 
 struct ServoSettings {
-  int most_iterations = 40;
+  int most_iterations = 100;
   std::size_t every = 4;  ///< every how manieth sample has a residual
   double tolerance = 1e-6;
   ServoDuty duty = ServoDuty::recorded;
