@@ -21,7 +21,7 @@ struct Limits {
   double remainder_share = 0.1;  ///< and the share of the residual it has to order
   double shadow = 0.03;          ///< gain over that of a larger cause of the same equation
   double twin_shadow = 0.1;      ///< the same over that of one that could stand for it
-  double apart = 1500.0;         ///< gain in a shadow that is beyond doubt,
+  double apart = 300.0;          ///< gain in a shadow that is beyond doubt,
   double beyond_form = 0.4;      ///< with this share of it no error in the larger cause's form
   double explained = 0.75;       ///< share of the misfit that the causes have to remove
   double half = 0.5;             ///< the same of the whole sum of squares, where noise is unsure
