@@ -109,9 +109,10 @@ struct Needless {
 // doubt, which no error in the form of the larger one explains.
 bool stays(const Frame& frame, const Limits& limits, const Selection& s, const Worth& worth,
            std::size_t cause, std::size_t large) {
-  return (worth.loss[cause] > limits.apart ||
-          leaves_something(frame, s.final, worth.without[cause], limits)) &&
-         share_beyond_form(frame, s.final, cause, large) > limits.beyond_form;
+  const double share = share_beyond_form(frame, s.final, cause, large);
+  if (worth.loss[cause] > limits.apart && share > limits.apart_from_form) return true;
+  return share > limits.beyond_form &&
+         leaves_something(frame, s.final, worth.without[cause], limits);
 }
 
 // The least first.
