@@ -90,7 +90,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.confusable = spelled_confusable(*frame, *selection);
   d.tried = spelled_trials(*selection, limits);
   d.moved = spelled_moves(*frame, *selection);
-  d.series = spelled_series(*frame, *selection);
+  d.series = spelled_series(*frame, *selection, *proof);
   d.next_experiment = next_experiment(*frame, *selection);
   d.says = spelled_verdict(d);
   if (one_loop(*frame)) say_undecided(*frame, d);

@@ -103,6 +103,7 @@ struct HeldOut {
   PerEquation base, final, placebo;
   std::vector<ArrayXd> without;  ///< of the final model less each cause, in that cause's equation
   std::vector<ArrayXd> change;   ///< of its prediction there
+  ArrayXd before, after;         ///< predictions of the equation to prove, all rows
   double train_before = 0.0;     ///< sums of squares of the equation to prove, all folds
   double train_after = 0.0;
   double train_rows = 0.0;
@@ -117,7 +118,14 @@ void take(PerEquation& pool, const PerEquation& residual, const ArrayXd& rows) {
 HeldOut nothing_yet(const Frame& frame, const Selection& s) {
   const ArrayXd zero = ArrayXd::Zero(frame.rows());
   const PerEquation each = {zero, zero, zero};
-  return {each, each, each, {s.accepted.size(), zero}, {s.accepted.size(), zero}};
+  const std::size_t e = index_of(equation_to_prove(frame, s));
+  return {each,
+          each,
+          each,
+          {s.accepted.size(), zero},
+          {s.accepted.size(), zero},
+          s.baseline.fit.prediction[e],
+          s.final.fit.prediction[e]};
 }
 
 Result<void> take_causes(const Frame& frame, const Selection& s, const Findings& final,
@@ -157,6 +165,8 @@ Result<void> take_fold(const Frame& frame, const Selection& s, const ArrayXd& ou
   const ArrayXd held = out * frame.usable;
   const ArrayXd train = (1.0 - out) * frame.usable;
   const std::size_t e = index_of(equation_to_prove(frame, s));
+  pool.before = (out > 0.0).select(base.fit.prediction[e], pool.before);
+  pool.after = (out > 0.0).select(final.fit.prediction[e], pool.after);
   take(pool.base, base.fit.residual, held);
   take(pool.final, final.fit.residual, held);
   pool.train_before += (base.fit.residual[e].square() * train).sum();
@@ -225,6 +235,8 @@ Result<Proof> prove(const Frame& frame, const Selection& s) {
   const std::size_t e = index_of(equation_to_prove(frame, s));
   const ArrayXd held = held_out(frame) * frame.usable;
   Proof proof;
+  proof.before = pool.before;
+  proof.after = pool.after;
   HoldoutProof& h = proof.holdout;
   h.rmse_before = rms_on(pool.base[e], held);
   h.rmse_after = rms_on(pool.final[e], held);

@@ -19,6 +19,10 @@ struct Proof {
   std::vector<double> cause_ratio;    ///< final model over the final model without that cause
   std::vector<double> cause_shown;    ///< what it changes there, in chi square
   std::vector<double> placebo_ratio;  ///< with an absent effect instead, over the baseline
+  /// Measured torque of the equation to prove as the baseline and the final model predict it, all
+  /// rows: where held out by the fits that did not see them, else by those to all recordings.
+  Eigen::ArrayXd before;
+  Eigen::ArrayXd after;
 };
 Result<Proof> prove(const Frame& frame, const Selection& selection);
 

@@ -270,9 +270,9 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s)
   return list;
 }
 
-std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& s) {
+std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& s,
+                                            const Proof& proof) {
   const Equation equation = equation_to_prove(frame, s);
-  const std::size_t e = index_of(equation);
   const ArrayXd out = held_out(frame);
   std::vector<DiagnosedSeries> list;
   for (const Segment& segment : frame.segments) {
@@ -287,8 +287,8 @@ std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection&
       series.motion.push_back(frame.torsion[r]);
       series.rate.push_back(frame.torsion_rate[r]);
       series.measured.push_back(measured[r]);
-      series.before.push_back(s.baseline.fit.prediction[e][r]);
-      series.after.push_back(s.final.fit.prediction[e][r]);
+      series.before.push_back(proof.before[r]);
+      series.after.push_back(proof.after[r]);
       if (frame.rig != Rig::locked) series.motor_angle.push_back(frame.motor_angle[r]);
     }
     list.push_back(std::move(series));

@@ -17,7 +17,9 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& sele
 std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& selection);
 std::vector<TriedCandidate> spelled_trials(const Selection& selection, const Limits& limits);
 std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& selection);
-std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& selection);
+/// Recordings as measured and as predicted, those held out by fits that did not see them.
+std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& selection,
+                                            const Proof& proof);
 std::string spelled_verdict(const Diagnosis& diagnosis);
 
 }  // namespace flexspline::studies
