@@ -71,13 +71,15 @@ Motion motion_of(const RecordingSet& set, const Recording& recording) {
   return motion;
 }
 
-/// Rms of simulation less prediction over the noise, by recording; ends left out, where a spline's
-/// derivatives are loose.
+/// Rms of simulation less prediction over the noise, by recording, of those that the model was
+/// fitted to: the others are predicted by fits that did not see them. Ends left out, where a
+/// spline's derivatives are loose.
 std::map<std::string, double> apart(const Diagnosed& d, const ModelSpec& model) {
   constexpr std::size_t kEnd = 6;
   std::map<std::string, double> list;
   for (const DiagnosedSeries& series : d.diagnosis.series) {
     EXPECT_EQ(series.equation, "torsion");
+    if (series.split == Split::holdout) continue;
     const auto recording = std::ranges::find(d.set.recordings, series.recording, &Recording::id);
     const auto torque = simulate_torque(model, motion_of(d.set, *recording));
     EXPECT_TRUE(torque) << (torque ? "" : torque.error().message());
@@ -120,7 +122,7 @@ TEST_P(DiagnosedModel, SimulatesItsPredictionFromAFile) {
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_EQ(data::model_toml(*model), data::model_toml(*d.diagnosis.model));
   const auto differences = apart(d, *model);
-  EXPECT_EQ(differences.size(), d.set.recordings.size());
+  EXPECT_FALSE(differences.empty());
   for (const auto& [recording, difference] : differences) {
     EXPECT_LT(difference, GetParam().apart) << recording;
   }
