@@ -20,6 +20,10 @@ std::vector<Case> cases() {
   const RigInputs angle{{{Quantity::commanded_angle, sine(0.1, 2.0)}}, {}};
   const RigInputs bridge{
       {{Quantity::duty_cycle, sine(0.5, 2.0)}, {Quantity::supply_voltage, constant(12.0)}}, {}};
+  const RigInputs loop{
+      {{Quantity::commanded_angle, sine(0.5, 2.0)}, {Quantity::supply_voltage, constant(12.0)}},
+      {},
+      constant(1.5)};
   const EffectSpec series{"series_compliance", {{"compliance", 4.8e-5}}};
   const EffectSpec wave{"load_dependent_kinematic_error",
                         {{"compliance", 1e-5}, {"order", 2.0}, {"phase", 0.3}}};
@@ -72,6 +76,7 @@ std::vector<Case> cases() {
            {{{Quantity::current, sine(4.0, 2.0)}}, {}}},
           {"servo_voltage", Rig::servo, "voltage_driven", {}, bridge},
           {"servo_winding", Rig::servo, "winding", {}, bridge},
+          {"servo_held", Rig::servo, "position_loop", {}, loop},
           {"servo_compliant", Rig::servo, "compliant", {series, error}, torque},
           {"servo_compliant_current",
            Rig::servo,
