@@ -40,6 +40,9 @@ double fastest(const Frame& frame);
 /// A smooth signal a delay later, in every recording: linear between rows, held beyond the ends.
 Eigen::ArrayXd later(const Frame& frame, const Eigen::ArrayXd& signal, double delay);
 
+/// Time derivative of a signal along every recording, central differences of rows; 0 at its ends.
+Eigen::ArrayXd rate_of(const Frame& frame, const Eigen::ArrayXd& signal);
+
 /// Fraction of what warms up that is left, exp(-clock/T).
 Eigen::ArrayXd cold_share(const Frame& frame, double time_constant);
 

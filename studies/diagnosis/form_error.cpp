@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 
+#include "diagnosis/cause_columns.hpp"
 #include "diagnosis/model_columns.hpp"
 
 namespace flexspline::studies {
@@ -14,16 +15,6 @@ using Eigen::Index;
 
 bool acts_on(const ActiveCause& cause, Equation equation) {
   return std::ranges::count(cause.form->at, equation) > 0;
-}
-
-ArrayXd rate_along(const Frame& frame, const ArrayXd& signal) {
-  ArrayXd rate = ArrayXd::Zero(signal.size());
-  for (const Segment& s : frame.segments) {
-    for (Index i = s.first + 1; i + 1 < s.first + s.count; ++i) {
-      rate[i] = (signal[i + 1] - signal[i - 1]) / (frame.time[i + 1] - frame.time[i - 1]);
-    }
-  }
-  return rate;
 }
 
 ArrayXd scaled(const ArrayXd& x) {
@@ -39,10 +30,10 @@ Columns form_errors(const Frame& frame, const ArrayXd& c) {
   const ArrayXd rate = scaled(frame.torsion_rate);
   const ArrayXd torque = scaled(frame.torque);
   const ArrayXd clock = scaled(frame.clock);
-  return {c * torsion,         c * torsion.square(), c * rate,
-          c * rate.abs(),      c * torque,           c * torque.square(),
-          c * clock,           c * clock.square(),   c * scaled(c).square(),
-          rate_along(frame, c)};
+  return {c * torsion,      c * torsion.square(), c * rate,
+          c * rate.abs(),   c * torque,           c * torque.square(),
+          c * clock,        c * clock.square(),   c * scaled(c).square(),
+          rate_of(frame, c)};
 }
 
 class WeightedColumns {

@@ -71,16 +71,6 @@ ArrayXd since_reversal(const Frame& f, const ArrayXd& position, const ArrayXd& s
   return way;
 }
 
-ArrayXd rate_of(const Frame& f, const ArrayXd& signal) {
-  ArrayXd rate = ArrayXd::Zero(f.rows());
-  for (const Segment& s : f.segments) {
-    for (Index r = s.first + 1; r + 1 < s.first + s.count; ++r) {
-      rate[r] = (signal[r + 1] - signal[r - 1]) / (f.time[r + 1] - f.time[r - 1]);
-    }
-  }
-  return rate;
-}
-
 Columns by_recording(const Frame& f, const ArrayXd& direction) {
   Columns columns;
   for (const Segment& s : f.segments) {
