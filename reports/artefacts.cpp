@@ -1,14 +1,13 @@
 #include "flexspline/reports/artefacts.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <system_error>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/in_parallel.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "parse_artefacts.hpp"
 #include "read_checked.hpp"
@@ -57,18 +56,9 @@ auto read_all(const std::vector<fs::path>& files, std::string_view schema, Parse
   using One = decltype(read_one(files.front(), schema, parse, unreadable));
   std::vector<One> read(files.size());
   std::vector<std::vector<std::string>> refused(files.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size(); i = next++) {
-      read[i] = read_one(files[i], schema, parse, refused[i]);
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    const std::size_t most = std::min<std::size_t>(std::thread::hardware_concurrency(), kReaders);
-    for (std::size_t k = 1; k < std::min(most, files.size()); ++k) helpers.emplace_back(work);
-    work();
-  }
+  in_parallel(files.size(), std::min(threads_for(0), kReaders), [&](std::size_t i) {
+    read[i] = read_one(files[i], schema, parse, refused[i]);
+  });
   std::vector<typename One::value_type> whole;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (read[i]) whole.push_back(std::move(*read[i]));

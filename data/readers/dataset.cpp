@@ -1,7 +1,11 @@
 #include "flexspline/data/dataset.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
+#include "flexspline/core/in_parallel.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "readers/description.hpp"
 #include "readers/recording_table.hpp"
@@ -11,6 +15,20 @@ namespace {
 
 std::filesystem::path description_of(const std::filesystem::path& folder) {
   return folder / "dataset.toml";
+}
+
+// Several at once; recordings and findings in the order of the description.
+void read_tables(Description& description, DatasetReading& reading) {
+  const auto& entries = description.recordings;
+  std::vector<DatasetReading> found(entries.size());
+  description.set.recordings.resize(entries.size());
+  in_parallel(entries.size(), 0, [&](std::size_t i) {
+    description.set.recordings[i] = read_table(entries[i], description.channels, found[i]);
+  });
+  for (DatasetReading& one : found) {
+    std::ranges::move(one.errors, std::back_inserter(reading.errors));
+    std::ranges::move(one.notes, std::back_inserter(reading.notes));
+  }
 }
 
 }  // namespace
@@ -33,11 +51,7 @@ DatasetReading read_dataset(const std::filesystem::path& folder) {
     return reading;
   }
   Description description = parse_description(*text, folder, reading);
-  if (description.readable) {
-    for (const RecordingEntry& entry : description.recordings) {
-      description.set.recordings.push_back(read_table(entry, description.channels, reading));
-    }
-  }
+  if (description.readable) read_tables(description, reading);
   if (!reading.errors.empty()) return reading;
   description.set.sha256 = content_hash(description.set);
   reading.set = std::move(description.set);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "flexspline/core/in_parallel.hpp"
+
 namespace flexspline::estimators {
 namespace {
 
@@ -18,12 +20,6 @@ void watch_for(const Condition& come_about) {
 
 std::atomic<int>& running_fits() {
   static std::atomic<int> count = 0;
-  return count;
-}
-
-// Asked once: the system reads a file for it.
-int processors() {
-  static const auto count = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return count;
 }
 
@@ -84,7 +80,7 @@ void Crew::wait_for_work() {
 
 ProcessorShare::ProcessorShare(int wanted) {
   const int running = ++running_fits();
-  threads_ = wanted > 0 ? wanted : std::max(1, processors() / running);
+  threads_ = wanted > 0 ? wanted : std::max(1, static_cast<int>(threads_for(0)) / running);
 }
 
 ProcessorShare::~ProcessorShare() { --running_fits(); }

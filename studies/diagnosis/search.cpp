@@ -1,13 +1,12 @@
 #include "diagnosis/search.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
-#include <thread>
 
 #include "flexspline/core/estimate.hpp"
+#include "flexspline/core/in_parallel.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -20,7 +19,7 @@ constexpr int kRefineSteps = 12;
 constexpr int kNoisePasses = 3;          // the noise is measured on a fit that it weights
 constexpr double kWorthRefining = 0.03;  // of the best first gain
 constexpr std::size_t kMostRefined = 24;
-constexpr unsigned kMostThreads = 8;
+constexpr std::size_t kMostThreads = 8;
 
 // Equations whose fit a set of causes ties together, from those of one cause outward.
 std::vector<Equation> linked(const Frame& frame, const std::vector<ActiveCause>& causes,
@@ -236,18 +235,8 @@ Trial refined(const Frame& frame, const Findings& findings, const FirstLook& loo
   return trial;
 }
 
-// Runs one job per index; results stand in the order of the index.
-template <class Job>
-void in_parallel(std::size_t count, unsigned threads_wanted, const Job& job) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) job(i);
-  };
-  const unsigned found = std::min(std::max(1U, std::thread::hardware_concurrency()), kMostThreads);
-  const unsigned workers = threads_wanted > 0 ? threads_wanted : found;
-  std::vector<std::jthread> threads;
-  for (unsigned w = 1; w < workers; ++w) threads.emplace_back(work);
-  work();
+std::size_t searchers(unsigned wanted) {
+  return wanted > 0 ? wanted : std::min(threads_for(0), kMostThreads);
 }
 
 std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings, unsigned threads) {
@@ -258,7 +247,7 @@ std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings,
     if (present) continue;
     for (const CauseForm* form : forms_on(row, frame)) looks.push_back({&row, form, {}, -1.0, 0});
   }
-  in_parallel(looks.size(), threads, [&](std::size_t i) {
+  in_parallel(looks.size(), searchers(threads), [&](std::size_t i) {
     looks[i] = first_look(frame, findings, *looks[i].row, *looks[i].form);
   });
   return looks;
@@ -368,7 +357,7 @@ std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsi
     ++worth;
   }
   std::vector<Trial> trials(worth);
-  in_parallel(worth, threads,
+  in_parallel(worth, searchers(threads),
               [&](std::size_t i) { trials[i] = refined(frame, findings, looks[i], tried); });
   keep_best_of_each(trials);
   return trials;

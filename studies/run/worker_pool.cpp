@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "flexspline/core/in_parallel.hpp"
+
 namespace flexspline::studies {
 
 bool run_tasks(const std::vector<std::function<bool()>>& tasks, int workers,
@@ -20,8 +22,7 @@ bool run_tasks(const std::vector<std::function<bool()>>& tasks, int workers,
         broken = true;
     }
   };
-  const std::size_t wanted = workers > 0 ? static_cast<std::size_t>(workers)
-                                         : std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t wanted = threads_for(static_cast<std::size_t>(std::max(0, workers)));
   {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < std::min(wanted, tasks.size()); ++i) threads.emplace_back(work);

@@ -2,11 +2,11 @@
 #include <chrono>
 #include <mutex>
 #include <set>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/in_parallel.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "run/study_folder.hpp"
 #include "run/worker_pool.hpp"
@@ -126,7 +126,7 @@ Result<TrialSummary> TrialRun::operator()() {
 
 // The processors shared out among the cases that are diagnosed at once.
 Diagnose on_their_share(int jobs) {
-  const unsigned found = std::max(1U, std::thread::hardware_concurrency());
+  const auto found = static_cast<unsigned>(threads_for(0));
   const unsigned share = jobs > 0 ? found / static_cast<unsigned>(jobs) : 1U;
   return [threads = std::max(1U, share)](const RecordingSet& recordings,
                                          const DiagnosisProgress& progress) {
