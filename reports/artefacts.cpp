@@ -56,9 +56,8 @@ auto read_all(const std::vector<fs::path>& files, std::string_view schema, Parse
   using One = decltype(read_one(files.front(), schema, parse, unreadable));
   std::vector<One> read(files.size());
   std::vector<std::vector<std::string>> refused(files.size());
-  in_parallel(files.size(), std::min(threads_for(0), kReaders), [&](std::size_t i) {
-    read[i] = read_one(files[i], schema, parse, refused[i]);
-  });
+  in_parallel(files.size(), std::min(threads_for(0), kReaders),
+              [&](std::size_t i) { read[i] = read_one(files[i], schema, parse, refused[i]); });
   std::vector<typename One::value_type> whole;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (read[i]) whole.push_back(std::move(*read[i]));

@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include "flexspline/estimators/method.hpp"
-#include "torque_driven/crew.hpp"
+#include "solvers/processor_share.hpp"
 #include "torque_driven/driven_estimate.hpp"
 
 namespace flexspline::estimators {
@@ -12,12 +12,12 @@ MethodRow describe_torque_driven();
 namespace {
 
 Result<DrivenFit> fit_by(const std::string& backend, const DrivenProblem& problem,
-                         const DrivenSettings& settings, Crew& crew) {
+                         const DrivenSettings& settings, std::size_t threads) {
   std::vector<double> start = driven_start(problem);
-  if (backend == "cvodes") return fit_by_cvodes(problem, std::move(start), settings, crew);
+  if (backend == "cvodes") return fit_by_cvodes(problem, std::move(start), settings, threads);
   if (backend == "collocation")
-    return fit_by_collocation(problem, std::move(start), settings, crew);
-  return fit_by_kernels(problem, std::move(start), settings, crew);
+    return fit_by_collocation(problem, std::move(start), settings, threads);
+  return fit_by_kernels(problem, std::move(start), settings, threads);
 }
 
 Result<Estimate> fit(const FitProblem& given) {
@@ -26,18 +26,18 @@ Result<Estimate> fit(const FitProblem& given) {
   const auto whole = [&](std::string_view name) {
     return static_cast<int>(number(given, method, name));
   };
-  const ProcessorShare share(whole("threads"));
-  Crew crew(std::min(share.threads(), static_cast<int>(given.records.size())));
+  const ProcessorShare share(static_cast<std::size_t>(whole("threads")));
+  const std::size_t threads = share.threads();
   const auto problem = driven_problem(
       given.records, whole("f_terms"), whole("g_terms"), whole("h_terms"),
       word(given, method, "initial") == "rest" ? InitialMotion::rest : InitialMotion::measured,
-      crew);
+      threads);
   if (!problem) return tl::unexpected(problem.error());
   const DrivenSettings settings{.tolerance = number(given, method, "tolerance"),
                                 .max_iterations = whole("iterations")};
-  const auto found = fit_by(word(given, method, "backend"), *problem, settings, crew);
+  const auto found = fit_by(word(given, method, "backend"), *problem, settings, threads);
   if (!found) return tl::unexpected(found.error());
-  auto estimate = driven_estimate(*problem, *found, given.records.front().linear, crew);
+  auto estimate = driven_estimate(*problem, *found, given.records.front().linear, threads);
   if (!estimate) return estimate;
   estimate->seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "torque_driven/collocation_mesh.hpp"
-#include "torque_driven/crew.hpp"
 #include "torque_driven/driven_fit.hpp"
 #include "torque_driven/integration_plan.hpp"
 
@@ -27,8 +26,8 @@ double cost_of_nothing(const DrivenProblem& problem) {
 // Warm start: coefficients after a few steps of shooting, with the trajectory that they give. What
 // the mesh cannot follow is foreseen there, and looked for again at the solution.
 Result<DrivenFit> fit_by_collocation(const DrivenProblem& problem, std::vector<double> p,
-                                     const DrivenSettings& settings, Crew& crew) {
-  IntegrationPlan plan(problem, p, settings.instructions, crew);
+                                     const DrivenSettings& settings, std::size_t threads) {
+  IntegrationPlan plan(problem, p, settings.instructions, threads);
   DrivenFit fit{.p = std::move(p), .at = {}};
   NlpSettings nlp_settings{.tolerance = 1e-9, .max_iterations = settings.max_iterations};
   nlp_settings.objective_scale = 1.0 / cost_of_nothing(problem);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "torque_driven/crew.hpp"
+#include "flexspline/core/in_parallel.hpp"
 #include "torque_driven/driven_fit.hpp"
 #include "torque_driven/driven_ode.hpp"
 
@@ -40,7 +40,7 @@ Sums sums_of(const DrivenProblem& problem, const DrivenSeries& one, std::span<co
 }  // namespace
 
 DrivenFit fit_by_cvodes(const DrivenProblem& problem, std::vector<double> p,
-                        const DrivenSettings& settings, Crew& crew) {
+                        const DrivenSettings& settings, std::size_t threads) {
   DrivenFit fit{.p = std::move(p), .at = {}};
   const auto n = static_cast<Eigen::Index>(problem.size());
   std::vector<Sums> sums(problem.series.size());
@@ -48,8 +48,9 @@ DrivenFit fit_by_cvodes(const DrivenProblem& problem, std::vector<double> p,
   const NormalEvaluation evaluate =
       [&](std::span<const double> at) -> std::optional<NormalEquations> {
     if (!driven_admissible(problem, at)) return std::nullopt;
-    crew.run(sums.size(),
-             [&](std::size_t s) { sums[s] = sums_of(problem, problem.series[s], at, tolerance); });
+    in_parallel(sums.size(), threads, [&](std::size_t s) {
+      sums[s] = sums_of(problem, problem.series[s], at, tolerance);
+    });
     Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n + 1, n + 1);
     std::vector<double> squares;
     for (std::size_t s = 0; s < sums.size(); ++s) {

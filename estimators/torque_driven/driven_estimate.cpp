@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "flexspline/core/in_parallel.hpp"
 #include "uncertainty/bands.hpp"
 #include "uncertainty/estimate_parts.hpp"
 
@@ -107,7 +108,7 @@ double highest_speed(const DrivenProblem& problem) {
 }
 
 Result<std::vector<FunctionBand>> bands_of(const DrivenProblem& problem, const ModelSpec& model,
-                                           const Eigen::MatrixXd& covariance, Crew& crew) {
+                                           const Eigen::MatrixXd& covariance, std::size_t threads) {
   const auto f = make_law(model.f);
   const auto g_inverse = make_law(model.g_inverse);
   const auto h = make_law(model.h);
@@ -124,14 +125,14 @@ Result<std::vector<FunctionBand>> bands_of(const DrivenProblem& problem, const M
       [&] { return law_band("g_inverse", **g_inverse, block(problem.f, problem.g), -v, v); },
       [&] { return law_band("h", **h, block(problem.f + problem.g, problem.h), -s, s); }};
   std::vector<FunctionBand> bands(problem.h > 0 ? 3 : 2);
-  crew.run(bands.size(), [&](std::size_t k) { bands[k] = makers[k](); });
+  in_parallel(bands.size(), threads, [&](std::size_t k) { bands[k] = makers[k](); });
   return bands;
 }
 
 }  // namespace
 
 Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& fit, bool linear,
-                                 Crew& crew) {
+                                 std::size_t threads) {
   if (fit.termination == Termination::failed || fit.termination == Termination::not_run) {
     return failure(ErrorCode::numerics,
                    "eq. (3) cannot be integrated with the values to start from",
@@ -155,7 +156,7 @@ Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& 
   estimate.estimator = "torque_driven";
   estimate.model = model_of(problem, si);
   estimate.model.g_inverse.valid_to = highest_speed(problem);
-  auto bands = bands_of(problem, estimate.model, covariance, crew);
+  auto bands = bands_of(problem, estimate.model, covariance, threads);
   if (!bands) return tl::unexpected(bands.error());
   estimate.bands = std::move(*bands);
   estimate.termination = fit.termination;

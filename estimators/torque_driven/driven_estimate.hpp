@@ -8,6 +8,6 @@ namespace flexspline::estimators {
 /// bands and a verdict on identifiability.
 /// Errors: numerics, where the fit failed or left no law that could be made.
 Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& fit, bool linear,
-                                 Crew& crew);
+                                 std::size_t threads);
 
 }  // namespace flexspline::estimators

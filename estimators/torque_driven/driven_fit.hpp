@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "flexspline/core/lane_kernels.hpp"
-#include "torque_driven/crew.hpp"
 #include "torque_driven/gauss_newton.hpp"
 #include "torque_driven/series.hpp"
 
@@ -31,17 +30,17 @@ struct DrivenFit {
 /// that would take many, implicit; they are refined until solutions with half the step differ by no
 /// more than the tolerance.
 DrivenFit fit_by_kernels(const DrivenProblem& problem, std::vector<double> p,
-                         const DrivenSettings& settings, Crew& crew);
+                         const DrivenSettings& settings, std::size_t threads);
 
 /// Single shooting from p by CVODES with forward sensitivities: an independent integrator, with the
 /// tolerance on each step.
 DrivenFit fit_by_cvodes(const DrivenProblem& problem, std::vector<double> p,
-                        const DrivenSettings& settings, Crew& crew);
+                        const DrivenSettings& settings, std::size_t threads);
 
 /// Trajectory and coefficients at once by Ipopt: the motions at all samples are unknowns, and the
 /// derivative of the polynomial through five neighbours obeys the law at each sample.
 /// Errors: numerics, where Ipopt gives up.
 Result<DrivenFit> fit_by_collocation(const DrivenProblem& problem, std::vector<double> p,
-                                     const DrivenSettings& settings, Crew& crew);
+                                     const DrivenSettings& settings, std::size_t threads);
 
 }  // namespace flexspline::estimators

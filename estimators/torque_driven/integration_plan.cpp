@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flexspline/core/in_parallel.hpp"
 #include "torque_driven/driven_ode.hpp"
 
 namespace flexspline::estimators {
@@ -43,17 +44,17 @@ double order_of(LaneFormula formula) { return formula == LaneFormula::radau ? 5.
 }  // namespace
 
 IntegrationPlan::IntegrationPlan(const DrivenProblem& problem, std::span<const double> p,
-                                 InstructionSet set, Crew& crew)
-    : problem_(problem), instructions_(set), crew_(crew) {
+                                 InstructionSet set, std::size_t threads)
+    : problem_(problem), instructions_(set), threads_(threads) {
   plans_.resize(problem.series.size());
-  crew_.run(plans_.size(), [&](std::size_t s) {
+  in_parallel(plans_.size(), threads_, [&](std::size_t s) {
     plans_[s] = plan_for(stiffness_along(problem, problem.series[s], p));
   });
   pack();
 }
 
 void IntegrationPlan::pack() {
-  set_ = std::make_unique<LaneSet>(problem_, plans_, instructions_, crew_);
+  set_ = std::make_unique<LaneSet>(problem_, plans_, instructions_, threads_);
 }
 
 // What overflowed was stiffer than could be seen.

@@ -18,7 +18,7 @@ struct Refinement {
 class IntegrationPlan {
  public:
   IntegrationPlan(const DrivenProblem& problem, std::span<const double> p, InstructionSet set,
-                  Crew& crew);
+                  std::size_t threads);
 
   /// B'B at p with steps that are stable there: where a step proves too long for the stiffness met
   /// on the way, the recording is taken with more steps, or by the implicit formula, and again.
@@ -37,7 +37,7 @@ class IntegrationPlan {
 
   const DrivenProblem& problem_;
   InstructionSet instructions_;
-  Crew& crew_;
+  std::size_t threads_;
   std::vector<LanePlan> plans_;
   std::unique_ptr<LaneSet> set_;
 };

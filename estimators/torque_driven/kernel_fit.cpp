@@ -18,8 +18,8 @@ constexpr int kMostRefinements = 5;
 // On the way the steps need only be stable. At the optimum they are looked at, and where they are
 // refined the optimum is found again from there.
 DrivenFit fit_by_kernels(const DrivenProblem& problem, std::vector<double> p,
-                         const DrivenSettings& settings, Crew& crew) {
-  IntegrationPlan plan(problem, p, settings.instructions, crew);
+                         const DrivenSettings& settings, std::size_t threads) {
+  IntegrationPlan plan(problem, p, settings.instructions, threads);
   DrivenFit fit{.p = std::move(p), .at = {}};
   const NormalEvaluation evaluate = evaluation_by(problem, plan);
   GaussNewtonSettings newton{.max_iterations = settings.max_iterations};

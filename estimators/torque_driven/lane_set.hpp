@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "flexspline/core/lane_kernels.hpp"
-#include "torque_driven/crew.hpp"
 #include "torque_driven/series.hpp"
 
 namespace flexspline::estimators {
@@ -29,7 +28,7 @@ struct LaneSums {
 class LaneSet {
  public:
   LaneSet(const DrivenProblem& problem, const std::vector<LanePlan>& plans, InstructionSet set,
-          Crew& crew);
+          std::size_t threads);
 
   /// B'B at coefficients p, lower triangle row by row.
   const LaneSums& sums(std::span<const double> p);
@@ -51,7 +50,6 @@ class LaneSet {
     LaneKernel kernel = nullptr;
     LaneBlock block{};
     Memory memory{};
-    std::size_t room = 0;  // doubles in memory
     double* normal = nullptr;
     double* stiffness = nullptr;
     double* state = nullptr;
@@ -60,15 +58,20 @@ class LaneSet {
   void arrange(const std::vector<LanePlan>& plans, InstructionSet set);
   void measure(Packed& packed) const;
   void pack(Packed& packed) const;
-  void fill_lane(const Packed& packed, std::size_t lane, double* torque, double* width,
-                 double* measured, double* weight) const;
+  const DrivenSeries& series_in(const Packed& packed, std::size_t lane) const;
+  void fill_torque(const Packed& packed, const LaneBlock& block, std::size_t from,
+                   double* torque) const;
+  void fill_lane(const Packed& packed, std::size_t lane, double* width, double* measured,
+                 double* weight) const;
   LaneLaws laws(std::span<const double> p) const;
-  // Of a lane's states, weighted.
-  double largest_difference(const Packed& a, const Packed& b, std::size_t lane) const;
   void integrate(const Packed& packed, std::span<const double> p) const;
+  void compare_by_half_steps(const Packed& packed, std::span<const double> p,
+                             std::vector<double>& change) const;
+  double largest_difference(const Packed& packed, std::size_t lane, std::size_t from,
+                            std::span<const double> others) const;
 
   const DrivenProblem& problem_;
-  Crew& crew_;
+  std::size_t threads_;
   std::vector<Packed> blocks_;
   std::vector<double> states_at_;  // coefficients that the blocks' states belong to
   LaneSums sums_;

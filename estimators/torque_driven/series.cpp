@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/core/in_parallel.hpp"
+
 namespace flexspline::estimators {
 namespace {
 
@@ -148,7 +150,7 @@ std::size_t DrivenProblem::residuals() const {
 }
 
 Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, int f, int g, int h,
-                                     InitialMotion initial, Crew& crew) {
+                                     InitialMotion initial, std::size_t threads) {
   DrivenProblem problem{
       .motion_scale = 0.0, .torque_scale = 0.0, .f = f, .g = g, .h = h, .series = {}};
   if (records.empty()) {
@@ -159,7 +161,7 @@ Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, 
   std::vector<Result<void>> checked(count);
   std::vector<double> motions(count);
   std::vector<double> torques(count);
-  crew.run(count, [&](std::size_t i) {
+  in_parallel(count, threads, [&](std::size_t i) {
     checked[i] = check(records[i]);
     if (!checked[i]) return;
     motions[i] = largest_valid(records[i], records[i].motion);
@@ -171,7 +173,7 @@ Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, 
   problem.motion_scale = std::ranges::max(motions);
   problem.torque_scale = std::ranges::max(torques);
   problem.series.resize(count);
-  crew.run(count, [&](std::size_t i) {
+  in_parallel(count, threads, [&](std::size_t i) {
     problem.series[i] =
         series_of(records[i], motions[i], problem.motion_scale, problem.torque_scale, initial);
   });

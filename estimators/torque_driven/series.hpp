@@ -6,7 +6,6 @@
 
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/recording.hpp"
-#include "torque_driven/crew.hpp"
 
 namespace flexspline::estimators {
 
@@ -55,7 +54,7 @@ enum class InitialMotion { rest, measured };
 
 /// Errors: bad_data for records without motion or torque, or too short for the terms.
 Result<DrivenProblem> driven_problem(const std::vector<TorsionRecord>& records, int f, int g, int h,
-                                     InitialMotion initial, Crew& crew);
+                                     InitialMotion initial, std::size_t threads);
 
 /// A linear spring by regression and a linear damper from the energy that the recordings lose, with
 /// a little of every higher term; h = 1.

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "torque_driven/crew.hpp"
+#include "flexspline/core/in_parallel.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 // The parameters' profiles do not need each other: threads take them, rather than blocks.
 std::vector<Result<ProfileInterval>> profiles_of(const FittedProblem& fit, SolverSettings solver) {
   std::vector<Result<ProfileInterval>> profiles(fit.p.size());
-  Crew crew(std::min(solver.threads, static_cast<int>(fit.p.size())));
+  const auto threads = static_cast<std::size_t>(std::max(1, solver.threads));
   solver.threads = 1;
-  crew.run(profiles.size(), [&](std::size_t k) {
+  in_parallel(profiles.size(), threads, [&](std::size_t k) {
     profiles[k] =
         profile_interval(fit.problem, fit.parameters, fit.p, fit.covariance, k,
                          {.variance = fit.variances.empty() ? fit.variance : fit.variances[k],

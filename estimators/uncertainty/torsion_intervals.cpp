@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "torque_driven/crew.hpp"
+#include "solvers/processor_share.hpp"
 #include "torsion/torque_residuals.hpp"
 #include "torsion/torsion_residuals.hpp"
 #include "uncertainty/bounded_draws.hpp"
@@ -40,7 +40,7 @@ Result<Intervals> of(const LeastSquaresProblem& problem, const TrajectoryFit& fi
   const auto settled = minimise(problem, bounds, solver);
   if (!settled) return tl::unexpected(settled.error());
   const ProcessorShare share(settings.kind == Uncertainty::profile ? 0 : 1);
-  solver.threads = share.threads();
+  solver.threads = static_cast<int>(share.threads());
   return intervals({.problem = problem,
                     .parameters = bounds,
                     .p = settled->p,

@@ -15,16 +15,15 @@ namespace {
 using namespace estimators;
 
 const DrivenProblem& base() {
-  Crew alone(1);
   static const DrivenProblem problem =
-      *driven_problem(base_records(), 3, 3, 2, InitialMotion::rest, alone);
+      *driven_problem(base_records(), 3, 3, 2, InitialMotion::rest, 1);
   return problem;
 }
 
 void simulation(benchmark::State& state) {
-  Crew crew(static_cast<int>(state.range(0)));
+  const auto threads = static_cast<std::size_t>(state.range(0));
   auto p = driven_start(base());
-  IntegrationPlan plan(base(), p, best_instruction_set(), crew);
+  IntegrationPlan plan(base(), p, best_instruction_set(), threads);
   for (auto _ : state) {
     p.front() = std::nextafter(p.front(), 1e3);  // the motions at the last p are remembered
     benchmark::DoNotOptimize(plan.states(p));
@@ -33,9 +32,9 @@ void simulation(benchmark::State& state) {
 BENCHMARK(simulation)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 
 void gradient(benchmark::State& state) {
-  Crew crew(static_cast<int>(state.range(0)));
+  const auto threads = static_cast<std::size_t>(state.range(0));
   const auto p = driven_start(base());
-  IntegrationPlan plan(base(), p, best_instruction_set(), crew);
+  IntegrationPlan plan(base(), p, best_instruction_set(), threads);
   for (auto _ : state) benchmark::DoNotOptimize(plan.stable_sums(p).normal.front());
 }
 BENCHMARK(gradient)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
@@ -43,11 +42,10 @@ BENCHMARK(gradient)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond
 // How J'J grows: loops (steps squared), samples a loop, coefficients. One thread.
 void growth(benchmark::State& state) {
   const auto at = [&state](std::size_t k) { return static_cast<int>(state.range(k)); };
-  Crew crew(1);
   const auto problem =
-      *driven_problem(base_records(at(0), at(1)), at(2), at(2), at(3), InitialMotion::rest, crew);
+      *driven_problem(base_records(at(0), at(1)), at(2), at(2), at(3), InitialMotion::rest, 1);
   const auto p = driven_start(problem);
-  IntegrationPlan plan(problem, p, best_instruction_set(), crew);
+  IntegrationPlan plan(problem, p, best_instruction_set(), 1);
   for (auto _ : state) benchmark::DoNotOptimize(plan.stable_sums(p).normal.front());
 }
 BENCHMARK(growth)

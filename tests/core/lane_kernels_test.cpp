@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include "flexspline/core/lane_kernels.hpp"
 #include "flexspline/core/law.hpp"

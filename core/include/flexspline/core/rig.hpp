@@ -24,9 +24,9 @@ struct Signal {
   std::function<double(double)> rate;  ///< may be empty: central difference over 2e-5 s
 };
 
-/// The cubic through samples that rises and falls where they do (MonotoneInput), held constant beyond
-/// them; fewer than four samples: a cubic spline. One thread a signal: it remembers
-/// where it looked last.
+/// The cubic through samples that rises and falls where they do (MonotoneInput), held constant
+/// beyond them; fewer than four samples: a cubic spline. One thread a signal: it remembers where it
+/// looked last.
 Signal sampled_signal(std::span<const double> time, std::span<const double> samples);
 
 /// What drives a rig. Motor torque is what was recorded or commanded; effects at

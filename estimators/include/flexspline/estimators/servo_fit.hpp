@@ -30,13 +30,14 @@ struct ServoSettings {
 };
 
 /// Output error of a servo: its angle is simulated from the first sample of every training
-/// recording on, by the duty cycle (or what the loop commands) and the supply alone, and compared with the one measured (single
-/// shooting, CVODES, Ceres). Unknown: torque constant (equal to that of the back-EMF, SI),
-/// resistance, motor inertia, and the parameters of the model's effects that are not held; its laws
-/// have no say, the transmission being rigid. Known: load_mass_kg and arm_length_m of the set, as a
-/// point mass. Starts of the drive's constants come from the equation error, those of effects from
-/// the model. Standard deviations are widened by what neighbouring residuals have in common.
-/// Errors: input_missing, where the set lacks a channel or constant; those of fit_ode.
+/// recording on, by the duty cycle (or what the loop commands) and the supply alone, and compared
+/// with the one measured (single shooting, CVODES, Ceres). Unknown: torque constant (equal to that
+/// of the back-EMF, SI), resistance, motor inertia, and the parameters of the model's effects that
+/// are not held; its laws have no say, the transmission being rigid. Known: load_mass_kg and
+/// arm_length_m of the set, as a point mass. Starts of the drive's constants come from the equation
+/// error, those of effects from the model. Standard deviations are widened by what neighbouring
+/// residuals have in common. Errors: input_missing, where the set lacks a channel or constant;
+/// those of fit_ode.
 Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
                            const ServoSettings& settings = {});
 
