@@ -164,11 +164,9 @@ Result<Estimate> driven_estimate(const DrivenProblem& problem, const DrivenFit& 
   estimate.residual =
       "torsion: eq. (3) integrated from the measured torque, over the peak of each recording";
   for (std::size_t s = 0; s < problem.series.size(); ++s) {
-    const auto& weight = problem.series[s].weight;
-    const auto count =
-        std::count_if(weight.begin() + 1, weight.end(), [](double w) { return w > 0.0; });
-    estimate.fits.push_back({problem.series[s].id, Split::train,
-                             std::sqrt(fit.at.squares[s] / static_cast<double>(count))});
+    const DrivenSeries& one = problem.series[s];
+    estimate.fits.push_back(
+        {one.id, Split::train, std::sqrt(fit.at.squares[s] / static_cast<double>(one.counted))});
   }
   estimate.identifiability = identifiability_of(estimate.parameters, spectrum.condition);
   estimate.notes = fit.notes;

@@ -134,6 +134,8 @@ DrivenSeries series_of(const TorsionRecord& record, double largest_motion, doubl
     one.weight[i] = 0.0;
     one.all_valid = false;
   }
+  one.counted = static_cast<std::size_t>(
+      std::count_if(one.weight.begin() + 1, one.weight.end(), [](double w) { return w > 0.0; }));
   one.reading_span = reading_span_of(one);
   return one;
 }
@@ -142,10 +144,7 @@ DrivenSeries series_of(const TorsionRecord& record, double largest_motion, doubl
 
 std::size_t DrivenProblem::residuals() const {
   std::size_t count = 0;
-  for (const auto& one : series) {
-    count += static_cast<std::size_t>(
-        std::count_if(one.weight.begin() + 1, one.weight.end(), [](double w) { return w > 0.0; }));
-  }
+  for (const auto& one : series) count += one.counted;
   return count;
 }
 

@@ -20,6 +20,7 @@ struct DrivenSeries {
   double initial = 0.0;        ///< known motion at the first sample
   double step = 0.0;           ///< s between samples where all are alike, else 0
   bool all_valid = true;
+  std::size_t counted = 0;  ///< samples after the first that are valid: residuals
   /// Samples between which a speed can be read: so many that the motion changes by a tenth of its
   /// peak on average, which is beyond the noise.
   std::size_t reading_span = 2;
