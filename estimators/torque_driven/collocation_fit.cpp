@@ -39,6 +39,7 @@ Result<DrivenFit> fit_by_collocation(const DrivenProblem& problem, std::vector<d
   mesh.divide(mesh.foreseen(fit.p, plan.states(fit.p)), plan.states(fit.p), settings.tolerance);
   for (int round = 0; round < kMostMeshes; ++round) {
     const auto start = mesh.packed(fit.p, plan.states(fit.p));
+    plan.unpack();
     const auto found = minimise(DrivenNlp(problem, mesh.meshes()), start, nlp_settings);
     if (!found) return tl::unexpected(found.error());
     fit.iterations += found->iterations;

@@ -14,6 +14,16 @@ SparsePattern empty_pattern(std::size_t entries) {
   return pattern;
 }
 
+// Whether two stencils are the same but for where they lie, and for rounding.
+bool alike(std::span<const double> a, std::span<const double> b) {
+  constexpr double kRounding = 1e-11;
+  const double width = a.back() - a.front();
+  for (std::size_t k = 0; k + 1 < a.size(); ++k) {
+    if (std::abs((a.back() - a[k]) - (b.back() - b[k])) > kRounding * width) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 DrivenMesh driven_mesh(const DrivenSeries& series, std::span<const std::size_t> parts) {
@@ -50,13 +60,13 @@ DrivenNlp::DrivenNlp(const DrivenProblem& problem, const std::vector<DrivenMesh>
   std::size_t count = 0;
   for (const DrivenMesh& mesh : meshes) count += mesh.points() - 1;
   points_.reserve(count);
-  weights_.reserve(count * kStencil);
   for (std::size_t s = 0; s < meshes.size(); ++s) add(problem.series[s], meshes[s]);
 }
 
 void DrivenNlp::add(const DrivenSeries& series, const DrivenMesh& mesh) {
   const std::size_t base = points_.size();
   std::size_t sample = 1;
+  std::size_t told = 0;  // the last point with weights of its own
   for (std::size_t i = 1; i < mesh.points(); ++i) {
     const std::size_t first = i < kStencil ? 0 : i + 1 - kStencil;
     const std::span<const double> stencil(&mesh.time[first], kStencil);
@@ -66,14 +76,19 @@ void DrivenNlp::add(const DrivenSeries& series, const DrivenMesh& mesh) {
       point.weight = series.weight[sample];
       ++sample;
     }
-    auto weights = derivative_weights(stencil, mesh.time[i]);
-    for (double& w : weights) w *= point.width;
     const bool at_start = first == 0;
-    if (at_start) point.known = weights.front() * series.initial;
     point.first = base + (at_start ? 0 : first - 1);
     point.count = at_start ? kStencil - 1 : kStencil;
-    point.weights = weights_.size();
-    weights_.insert(weights_.end(), weights.begin() + (at_start ? 1 : 0), weights.end());
+    if (!at_start && i > kStencil && alike(stencil, {&mesh.time[told - kStencil + 1], kStencil})) {
+      point.weights = points_[base + told - 1].weights;
+    } else {
+      auto weights = derivative_weights(stencil, mesh.time[i]);
+      for (double& w : weights) w *= point.width;
+      if (at_start) point.known = weights.front() * series.initial;
+      point.weights = weights_.size();
+      weights_.insert(weights_.end(), weights.begin() + (at_start ? 1 : 0), weights.end());
+      told = i;
+    }
     points_.push_back(point);
   }
 }
@@ -84,7 +99,7 @@ void DrivenNlp::bounds(std::span<double> lower, std::span<double> upper) const {
 }
 
 SparsePattern DrivenNlp::jacobian_pattern() const {
-  SparsePattern pattern = empty_pattern(points_.size() * parameters_ + weights_.size());
+  SparsePattern pattern = empty_pattern(points_.size() * (parameters_ + kStencil));
   for (std::size_t k = 0; k < points_.size(); ++k) {
     for (std::size_t j = 0; j < parameters_; ++j) pattern.add(k, j);
     for (std::size_t j = 0; j < points_[k].count; ++j) {

@@ -62,7 +62,7 @@ class DrivenNlp final : public SparseNlp {
   const DrivenProblem& problem_;
   std::size_t parameters_;
   std::vector<Point> points_;
-  std::vector<double> weights_;  ///< times the width
+  std::vector<double> weights_;  ///< times the width; points with like neighbours share them
   mutable DrivenDerivatives law_;
 };
 

@@ -50,11 +50,11 @@ IntegrationPlan::IntegrationPlan(const DrivenProblem& problem, std::span<const d
   in_parallel(plans_.size(), threads_, [&](std::size_t s) {
     plans_[s] = plan_for(stiffness_along(problem, problem.series[s], p));
   });
-  pack();
 }
 
-void IntegrationPlan::pack() {
-  set_ = std::make_unique<LaneSet>(problem_, plans_, instructions_, threads_);
+LaneSet& IntegrationPlan::packed() {
+  if (!set_) set_ = std::make_unique<LaneSet>(problem_, plans_, instructions_, threads_);
+  return *set_;
 }
 
 // What overflowed was stiffer than could be seen.
@@ -74,18 +74,18 @@ bool IntegrationPlan::stabilise(const LaneSums& sums) {
 
 const LaneSums& IntegrationPlan::stable_sums(std::span<const double> p) {
   for (int round = 0;; ++round) {
-    const LaneSums& sums = set_->sums(p);
+    const LaneSums& sums = packed().sums(p);
     if (round == kMostRounds || !stabilise(sums)) return sums;
-    pack();
+    unpack();
   }
 }
 
 std::vector<std::vector<double>> IntegrationPlan::states(std::span<const double> p) {
-  return set_->states(p);
+  return packed().states(p);
 }
 
 Refinement IntegrationPlan::refine(std::span<const double> p, double tolerance) {
-  const std::vector<double> change = set_->change_by_half_steps(p);
+  const std::vector<double> change = packed().change_by_half_steps(p);
   Refinement found;
   for (std::size_t s = 0; s < plans_.size(); ++s) {
     const double order = order_of(plans_[s].formula);
@@ -97,7 +97,7 @@ Refinement IntegrationPlan::refine(std::span<const double> p, double tolerance) 
     plans_[s].parts = static_cast<int>(std::clamp(growth, plans_[s].parts + 1.0, 1.0 * kMostParts));
     found.changed = true;
   }
-  if (found.changed) pack();
+  if (found.changed) unpack();
   return found;
 }
 

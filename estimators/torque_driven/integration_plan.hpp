@@ -30,10 +30,12 @@ class IntegrationPlan {
   /// Motion of every recording at its samples after the first.
   std::vector<std::vector<double>> states(std::span<const double> p);
   std::size_t stiff() const;
+  /// Gives the memory of the packed recordings back until they are wanted again.
+  void unpack() { set_.reset(); }
 
  private:
   bool stabilise(const LaneSums& sums);
-  void pack();
+  LaneSet& packed();
 
   const DrivenProblem& problem_;
   InstructionSet instructions_;
