@@ -23,6 +23,12 @@ void watch_for(const Condition& come_about) {
   }
 }
 
+// Asked once: the system reads a file for it.
+std::size_t processors() {
+  static const std::size_t count = std::max(1U, std::thread::hardware_concurrency());
+  return count;
+}
+
 // One call's jobs. But for `undone`, which its caller watches, under the helpers' mutex.
 struct Batch {
   const std::function<void(std::size_t)>& job;
@@ -53,6 +59,7 @@ class Helpers {
   std::atomic<std::size_t> batches_seen_ = 0;
   std::vector<Batch*> batches_;
   std::size_t started_ = 0;
+  std::size_t idle_ = 0;
 };
 
 // The caller works on its own batch only, and waits only for jobs that run: batches within jobs
@@ -71,8 +78,14 @@ void Helpers::run(Batch& batch) {
   batch.finished.wait(lock, [&] { return batch.undone == 0; });
 }
 
+// As many as are wanted beside those that are at work, within bounds.
 void Helpers::start(std::size_t wanted) {
-  for (; started_ < wanted; ++started_) std::thread([this] { help(); }).detach();
+  const std::size_t most = std::max(wanted, 2 * processors());
+  while (idle_ < wanted && started_ < most) {
+    std::thread([this] { help(); }).detach();
+    ++started_;
+    ++idle_;
+  }
 }
 
 Batch* Helpers::open_batch() {
@@ -87,7 +100,9 @@ void Helpers::help() {
     const std::size_t seen = batches_seen_;
     while (Batch* const batch = open_batch()) {
       --batch->helpers_wanted;
+      --idle_;
       work_on(*batch, lock);
+      ++idle_;
     }
     lock.unlock();
     watch_for([&] { return batches_seen_ != seen; });
@@ -120,12 +135,6 @@ void Helpers::work_on(Batch& batch, std::unique_lock<std::mutex>& lock) {
 Helpers& helpers() {
   static Helpers& all = *new Helpers;
   return all;
-}
-
-// Asked once: the system reads a file for it.
-std::size_t processors() {
-  static const std::size_t count = std::max(1U, std::thread::hardware_concurrency());
-  return count;
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "flexspline/core/in_parallel.hpp"
 
 #include <atomic>
+#include <barrier>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,6 +38,26 @@ TEST(InParallel, ThrowsWhatAJobThrewAndBeginsNoOther) {
                            }),
                std::runtime_error);
   EXPECT_EQ(alone, 3);
+}
+
+TEST(InParallel, ReturnsFromCallsWithinJobsAndBesideOneAnother) {
+  std::atomic<int> done = 0;
+  const auto nested = [&done] {
+    in_parallel(8, 3, [&](std::size_t) {
+      in_parallel(8, 3, [&](std::size_t) { in_parallel(5, 2, [&](std::size_t) { ++done; }); });
+    });
+  };
+  {
+    std::vector<std::jthread> callers;
+    for (int k = 0; k < 4; ++k) callers.emplace_back(nested);
+  }
+  EXPECT_EQ(done, 4 * 8 * 8 * 5);
+}
+
+TEST(InParallel, HelpersAreOtherThreads) {
+  // Two jobs that wait for each other end only when they run at the same time.
+  std::barrier meet(2);
+  in_parallel(2, 2, [&](std::size_t) { meet.arrive_and_wait(); });
 }
 
 }  // namespace
