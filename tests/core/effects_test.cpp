@@ -180,6 +180,42 @@ TEST(SensorDelay, ShiftsTheTorqueInTime) {
   }
 }
 
+TEST(TorqueSensorLag, IsTheFirstOrderLowPassOfASine) {
+  const double omega = 9.0;
+  const double lag = 0.08;
+  const auto motion = harmonic_motion({1.0}, 4000, 4);
+  std::vector<double> torque;
+  for (double t : motion.time) torque.push_back(std::sin(omega * t));
+  const auto row = find_effect("torque_sensor_lag");
+  ASSERT_TRUE(row);
+  ASSERT_TRUE(apply_along(**row, {"torque_sensor_lag", {{"time_constant", lag}}},
+                          instants_of(motion), torque));
+  EXPECT_EQ(torque.front(), 0.0);
+  const double share = 1.0 / (1.0 + std::pow(omega * lag, 2));
+  for (std::size_t i = 0; i < torque.size(); ++i) {
+    const double t = motion.time[i];
+    const double settled = share * (std::sin(omega * t) - omega * lag * std::cos(omega * t));
+    EXPECT_NEAR(torque[i], settled + share * omega * lag * std::exp(-t / lag), 1e-5);
+  }
+}
+
+TEST(TorqueSensorLag, FollowsARampAtItsTimeConstantOverAnySteps) {
+  const std::vector<double> time = {0.0, 0.01, 0.5, 0.52, 3.0};
+  std::vector<double> shown;
+  for (double t : time) shown.push_back(2.0 * t);
+  const auto row = find_effect("torque_sensor_lag");
+  ASSERT_TRUE(row);
+  std::vector<double> none = shown;
+  const double lag = 0.05;
+  (*row)->map(time, shown, std::vector{lag});
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    EXPECT_NEAR(shown[i], 2.0 * (time[i] - lag * (1.0 - std::exp(-time[i] / lag))), 1e-14);
+  }
+  const auto before = none;
+  (*row)->map(time, none, std::vector{0.0});
+  EXPECT_EQ(none, before);
+}
+
 TEST(TorqueSensorOffset, AddsAConstant) {
   const auto motion = harmonic_motion({1.0}, 50);
   for (double value : torque_of("torque_sensor_offset", {{"offset", 0.75}}, motion)) {

@@ -244,7 +244,8 @@ class OnTheInstrument : public InTheLaw {};
 const std::map<std::string_view, std::string_view> kOneWay = {
     {"inertia_torque", "needs the acceleration"},
     {"sensor_delay", "needs the whole signal"},
-    {"torque_quantisation", "needs the whole signal"}};
+    {"torque_quantisation", "needs the whole signal"},
+    {"torque_sensor_lag", "needs the whole signal"}};
 
 /// Effects whose torque is not made as a function of time, and what says so: they are driven as
 /// rigs.
