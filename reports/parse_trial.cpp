@@ -34,7 +34,7 @@ ShownScores parse_scores(const json& from) {
   return scores;
 }
 
-ShownSizeBin parse_bin(const json& from) {
+ShownDetectionBin parse_bin(const json& from) {
   return {number_in(from, "from"),    number_in(from, "to"),        count_in(from, "cases"),
           count_in(from, "detected"), count_in(from, "single_top"), count_in(from, "single_exact")};
 }
@@ -60,6 +60,7 @@ ShownTrialCase parse_case_of_trial(const json& from) {
   one.effects = texts_in(from, "effects");
   one.named = texts_in(from, "named");
   one.size = numbers_in(from, "size");
+  one.trace = numbers_in(from, "trace");
   one.right = flag_in(from, "right");
   one.after_over_noise = number_in(from, "after_over_noise");
   one.seconds = number_in(from, "seconds");
@@ -85,10 +86,12 @@ TrialView parse_trial(const json& artefact) {
   view.build_id = text_in(artefact, "build_id");
   view.design = member(artefact, "design").dump(2, ' ', false, json::error_handler_t::replace);
   view.scores = parse_scores(member(artefact, "scores"));
+  view.scores_seen = parse_scores(member(artefact, "scores_seen"));
   for (const auto& item : member(artefact, "by_rig").items()) {
     view.by_rig[item.key()] = parse_scores(item.value());
   }
   for (const json& one : member(artefact, "by_size")) view.by_size.push_back(parse_bin(one));
+  for (const json& one : member(artefact, "by_trace")) view.by_trace.push_back(parse_bin(one));
   for (const json& one : member(artefact, "by_effect")) {
     view.by_effect.push_back(parse_effect(one));
   }

@@ -17,7 +17,8 @@ constexpr std::size_t kPatience = 5;  // passes before that counts
 SolverSettings solver_settings(const OdeFitSettings& settings) {
   return {.max_iterations = settings.max_iterations,
           .function_tolerance = settings.function_tolerance,
-          .parameter_tolerance = 1e-13};
+          .parameter_tolerance = 1e-13,
+          .slopes_at_trials = true};
 }
 
 // Early passes need not settle, for their jumps are not the last.

@@ -21,6 +21,13 @@ double residual_size(const OdeLayout& layout, const LaidOutExperiment& experimen
   return size > 0.0 ? size : 1.0;
 }
 
+std::string spelled(const std::vector<OdeParameter>& unknowns, std::span<const double> q) {
+  std::string text;
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    text += fmt::format("{}{} = {:.6g}", k > 0 ? ", " : "", unknowns[k].name, q[k]);
+  return text;
+}
+
 }  // namespace
 
 ShootingProblem::ShootingProblem(const OdeLayout& layout, double tolerance, int most_segments)
@@ -80,7 +87,8 @@ Result<void> ShootingProblem::evaluate(std::size_t block, std::span<const double
   auto shot = shoot(layout_, q, segment.start, segment.times, tolerance_, !jacobian.empty());
   if (!shot) {
     return tl::unexpected(in_context(
-        std::move(shot).error(), fmt::format("experiment '{}'", segment.experiment->source.id)));
+        std::move(shot).error(), fmt::format("experiment '{}' at {}", segment.experiment->source.id,
+                                             spelled(layout_.unknowns, q))));
   }
   std::ranges::fill(jacobian, 0.0);
   fill_data(segment, *shot, residual, jacobian, q.size());

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kAtBound = 1e-6;  // distance from a bound, in scales, that counts as on it
 constexpr int kRounds = 4;         // of letting go of bounds
+// Trial points in a row that cannot be evaluated: each shrinks the trust region by twice the factor
+// of the one before, in all by 2^78.
+constexpr int kInvalidSteps = 12;
 
 // What the blocks tell beside their values: how often they ran, and why one last failed.
 struct Log {
@@ -23,8 +26,12 @@ struct Log {
 class Block final : public ceres::CostFunction {
  public:
   Block(const LeastSquaresProblem& problem, std::size_t index,
-        std::span<const BoundedParameter> parameters, Log& log)
-      : problem_(problem), index_(index), parameters_(parameters), log_(log) {
+        std::span<const BoundedParameter> parameters, bool slopes_at_trials, Log& log)
+      : problem_(problem),
+        index_(index),
+        parameters_(parameters),
+        slopes_at_trials_(slopes_at_trials),
+        log_(log) {
     set_num_residuals(static_cast<int>(problem.residuals(index)));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
@@ -34,24 +41,46 @@ class Block final : public ceres::CostFunction {
     const auto rows = static_cast<std::size_t>(num_residuals());
     std::vector<double> p(count);
     for (std::size_t k = 0; k < count; ++k) p[k] = scaled[0][k] * parameters_[k].scale;
-    double* jacobian = jacobians != nullptr ? jacobians[0] : nullptr;
-    const std::span<double> wanted(jacobian, jacobian != nullptr ? rows * count : 0);
+    double* wanted = jacobians != nullptr ? jacobians[0] : nullptr;
+    if (!slopes_at_trials_) {
+      return evaluate(p, {residuals, rows}, {wanted, wanted != nullptr ? rows * count : 0});
+    }
+    if (p != last_) {
+      last_.clear();
+      residual_.resize(rows);
+      jacobian_.resize(rows * count);
+      if (!evaluate(p, residual_, jacobian_)) return false;
+      last_ = std::move(p);
+    }
+    std::ranges::copy(residual_, residuals);
+    if (wanted != nullptr) std::ranges::copy(jacobian_, wanted);
+    return true;
+  }
+
+ private:
+  bool evaluate(std::span<const double> p, std::span<double> residual,
+                std::span<double> jacobian) const {
     ++log_.evaluations;
-    const auto done = problem_.evaluate(index_, p, {residuals, rows}, wanted);
+    const auto done = problem_.evaluate(index_, p, residual, jacobian);
     if (!done) {
       const std::lock_guard lock(log_.mutex);
       log_.last_failure = done.error().message();
       return false;
     }
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] *= parameters_[i % count].scale;
+    for (std::size_t i = 0; i < jacobian.size(); ++i)
+      jacobian[i] *= parameters_[i % p.size()].scale;
     return true;
   }
 
- private:
   const LeastSquaresProblem& problem_;
   std::size_t index_;
   std::span<const BoundedParameter> parameters_;
+  bool slopes_at_trials_;
   Log& log_;
+  // Where it was last evaluated with derivatives; Ceres asks for them after the trial.
+  mutable std::vector<double> last_;
+  mutable std::vector<double> residual_;
+  mutable std::vector<double> jacobian_;
 };
 
 Termination termination_of(const ceres::Solver::Summary& summary) {
@@ -75,6 +104,7 @@ ceres::Solver::Options solver_options(const SolverSettings& settings) {
   options.initial_trust_region_radius = settings.trust_radius;
   options.min_lm_diagonal = settings.damping_floor;
   options.num_threads = settings.threads;
+  options.max_num_consecutive_invalid_steps = kInvalidSteps;
   options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
   return options;
@@ -116,7 +146,8 @@ ceres::Solver::Summary solve_holding(const LeastSquaresProblem& problem,
                                      std::vector<double>& x, Log& log) {
   ceres::Problem ceres_problem;
   for (std::size_t b = 0; b < problem.blocks(); ++b) {
-    ceres_problem.AddResidualBlock(new Block(problem, b, parameters, log), nullptr, x.data());
+    ceres_problem.AddResidualBlock(
+        new Block(problem, b, parameters, settings.slopes_at_trials, log), nullptr, x.data());
   }
   for (std::size_t k = 0; k < x.size(); ++k) {
     const auto& parameter = parameters[k];

@@ -28,7 +28,8 @@ class LeastSquaresProblem {
   virtual std::size_t blocks() const = 0;
   virtual std::size_t residuals(std::size_t block) const = 0;
   /// jacobian is residuals x parameters, row by row, or empty where it is not wanted.
-  /// Errors: numerics where this p cannot be simulated; the solver then takes a shorter step.
+  /// Errors: numerics where this p cannot be simulated; the solver then takes a shorter step, up to
+  /// twelve times in a row.
   virtual Result<void> evaluate(std::size_t block, std::span<const double> p,
                                 std::span<double> residual, std::span<double> jacobian) const = 0;
 };
@@ -47,7 +48,10 @@ struct SolverSettings {
   /// Least damping of a parameter as a share of what its derivatives at the start ask for. 1 keeps
   /// parameters that lose their effect on the way from running off to a plateau.
   double damping_floor = 1e-6;
-  int threads = 1;                                ///< for the blocks; Ceres alone
+  int threads = 1;  ///< for the blocks; Ceres alone
+  /// Derivatives are evaluated with the residuals of a trial point, so that one is rejected which
+  /// has none; without, such a point ends the fit once it is accepted. Ceres alone.
+  bool slopes_at_trials = false;
   Curvature curvature = Curvature::gauss_newton;  ///< Ipopt alone
 };
 

@@ -53,6 +53,26 @@ std::vector<std::string> in_words(std::vector<std::string> labels) {
   return labels;
 }
 
+Panel detection_panel(const char* label, const std::vector<ShownDetectionBin>& bins) {
+  Panel panel;
+  panel.x.label = label;
+  panel.y.label = "cases / %";
+  panel.y.range = {0.0, 105.0};
+  panel.series = {{"detected", "line", {"plain", 0}, {}, {}, {}, {}},
+                  {"named first", "line", {"plain", 1}, {}, {}, {}, {}},
+                  {"named exactly", "line", {"plain", 2}, {}, {}, {}, {}}};
+  for (const ShownDetectionBin& bin : bins) {
+    if (!(bin.cases > 0.0)) continue;
+    const double middle = std::isfinite(bin.to) ? 0.5 * (bin.from + bin.to) : bin.from;
+    const double counts[] = {bin.detected, bin.first_right, bin.exact};
+    for (std::size_t i = 0; i < panel.series.size(); ++i) {
+      panel.series[i].x.push_back(100.0 * middle);
+      panel.series[i].y.push_back(100.0 * counts[i] / bin.cases);
+    }
+  }
+  return panel;
+}
+
 }  // namespace
 
 std::string rate_title(const std::string& name) {
@@ -86,16 +106,22 @@ Figure rates_figure(const TrialView& view) {
   panel.y.label = "question";
   Series intervals{"95 % interval", "line", {"plain", 0}, {}, {}, {}, {}};
   Series rates{"share of cases", "points", {"plain", 0}, {}, {}, {}, {}};
+  Series seen{"of those that can be seen", "points", {"plain", 1}, {}, {}, {}, {}};
   for (const auto& [name, rate] : told_rates(view.scores)) {
     const auto row = static_cast<double>(panel.y.categories.size());
     panel.y.categories.push_back(rate_title(name));
     rates.x.push_back(100.0 * rate.rate);
     rates.y.push_back(row);
+    if (const ShownRate one = view.scores_seen.rate(name); one.of > 0.0) {
+      seen.x.push_back(100.0 * one.rate);
+      seen.y.push_back(row + 0.2);
+    }
     intervals.x.insert(intervals.x.end(), {100.0 * rate.lower, 100.0 * rate.upper, kAbsent});
     intervals.y.insert(intervals.y.end(), {row, row, kAbsent});
   }
   if (rates.x.empty()) return figure;
   panel.series = {std::move(rates), std::move(intervals)};
+  if (!seen.x.empty()) panel.series.push_back(std::move(seen));
   figure.frames.push_back({{}, {std::move(panel)}});
   return figure;
 }
@@ -138,28 +164,22 @@ Figure confusion_figure(const TrialView& view) {
 Figure detection_figure(const TrialView& view) {
   Figure figure;
   figure.id = "detection";
-  figure.title = "Single effects by their size";
+  figure.title = "Single effects by their size, and by their trace";
   figure.caption =
-      "How large an effect has to be before it is seen, and before it is named. Where the lines "
-      "part, something is noticed that cannot yet be told.";
-  figure.alt = "Share of single effects detected, named first and named exactly, over their size.";
-  Panel panel;
-  panel.x.label = "size of the effect / % of peak torque";
-  panel.y.label = "cases / %";
-  panel.y.range = {0.0, 105.0};
-  panel.series = {{"detected", "line", {"plain", 0}, {}, {}, {}, {}},
-                  {"named first", "line", {"plain", 1}, {}, {}, {}, {}},
-                  {"named exactly", "line", {"plain", 2}, {}, {}, {}, {}}};
-  for (const ShownSizeBin& bin : view.by_size) {
-    if (!(bin.cases > 0.0)) continue;
-    const double middle = std::isfinite(bin.to) ? 0.5 * (bin.from + bin.to) : bin.from;
-    const double counts[] = {bin.detected, bin.first_right, bin.exact};
-    for (std::size_t i = 0; i < panel.series.size(); ++i) {
-      panel.series[i].x.push_back(100.0 * middle);
-      panel.series[i].y.push_back(100.0 * counts[i] / bin.cases);
-    }
+      "How large an effect has to be before it is seen, and before it is named. The trace is what "
+      "the fitted baseline leaves of it: of a compliance in series next to nothing, whatever its "
+      "size. Where the lines part, something is noticed that cannot yet be told.";
+  figure.alt =
+      "Share of single effects detected, named first and named exactly, over their size and over "
+      "their trace.";
+  std::vector<Panel> panels;
+  if (!view.by_size.empty()) {
+    panels.push_back(detection_panel("size of the effect / % of peak torque", view.by_size));
   }
-  if (!panel.series.front().x.empty()) figure.frames.push_back({{}, {std::move(panel)}});
+  if (!view.by_trace.empty()) {
+    panels.push_back(detection_panel("trace of the effect / % of peak torque", view.by_trace));
+  }
+  if (!panels.empty()) figure.frames.push_back({{}, std::move(panels)});
   return figure;
 }
 

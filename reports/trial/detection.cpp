@@ -6,9 +6,9 @@
 namespace flexspline::reports {
 namespace {
 
-Table sizes_table(const TrialView& view) {
-  Table table{"trial-by-size",
-              "Single effects by size, in percent of peak torque.",
+Table bins_table(const char* id, const char* caption, const std::vector<ShownDetectionBin>& bins) {
+  Table table{id,
+              caption,
               {{"from", "%", 2},
                {"to", "%", 2},
                {"cases", "", 0},
@@ -16,7 +16,7 @@ Table sizes_table(const TrialView& view) {
                {"named first", "", 0},
                {"named exactly", "", 0}},
               {}};
-  for (const ShownSizeBin& bin : view.by_size) {
+  for (const ShownDetectionBin& bin : bins) {
     table.rows.push_back(
         {100.0 * bin.from, 100.0 * bin.to, bin.cases, bin.detected, bin.first_right, bin.exact});
   }
@@ -50,7 +50,16 @@ std::optional<Section> draw(const TrialView& view) {
   if (Figure figure = detection_figure(view); !figure.frames.empty()) {
     section.add(std::move(figure));
   }
-  if (!view.by_size.empty()) section.add(sizes_table(view));
+  if (!view.by_size.empty()) {
+    section.add(bins_table("trial-by-size", "Single effects by size, in percent of peak torque.",
+                           view.by_size));
+  }
+  if (!view.by_trace.empty()) {
+    section.add(bins_table("trial-by-trace",
+                           "Single effects by their trace, what the fitted baseline leaves of "
+                           "them, in percent of peak torque.",
+                           view.by_trace));
+  }
   if (!view.by_effect.empty()) section.add(effects_table(view));
   return section;
 }

@@ -19,12 +19,15 @@ std::string answer_of(const ShownTrialCase& one) {
   return named.empty() ? words(one.verdict) : words(one.verdict) + ": " + named;
 }
 
+std::string percent(double share) { return digits(100.0 * share, 2); }
+
 std::vector<Cell> row_of(const ShownTrialCase& one) {
   const std::string hidden = joined(one.effects, words);
   return {one.key,
           one.rig,
           hidden.empty() ? "nothing" : hidden,
-          joined(one.size, [](double size) { return digits(100.0 * size, 2); }),
+          joined(one.size, percent),
+          joined(one.trace, percent),
           answer_of(one),
           one.right ? "yes" : "no",
           one.after_over_noise,
@@ -39,6 +42,7 @@ Table cases_table(const std::string& id, const std::string& caption,
                {"rig", "", 3},
                {"hidden", "", 3},
                {"size", "%", 2},
+               {"trace", "%", 2},
                {"answer", "", 3},
                {"right", "", 3},
                {"hold-out over noise", "", 3},

@@ -30,17 +30,24 @@ std::string sentence_of(const TrialView& view) {
 
 Table rates_table(const TrialView& view) {
   Table table{"trial-rates",
-              "What the trial was to show, with exact 95 % intervals.",
+              "What the trial was to show, with exact 95 % intervals. An effect can be seen where "
+              "the baseline, fitted to the recordings, leaves as much of it as a diagnosis names "
+              "at least; what springs and dampers take up nobody can name.",
               {{"question", "", 3},
                {"cases", "", 0},
                {"of", "", 0},
                {"share", "%", 3},
                {"from", "%", 3},
-               {"to (95 %)", "%", 3}},
+               {"to (95 %)", "%", 3},
+               {"that can be seen", "", 0},
+               {"of", "", 0},
+               {"share", "%", 3}},
               {}};
   for (const auto& [name, rate] : told_rates(view.scores)) {
+    const ShownRate seen = view.scores_seen.rate(name);
     table.rows.push_back({rate_title(name), rate.count, rate.of, 100.0 * rate.rate,
-                          100.0 * rate.lower, 100.0 * rate.upper});
+                          100.0 * rate.lower, 100.0 * rate.upper, seen.count, seen.of,
+                          100.0 * seen.rate});
   }
   return table;
 }

@@ -311,6 +311,10 @@ std::string_view name_of(Equation equation) {
   return "motor";
 }
 
+double Frame::largest_torque(Equation equation) const {
+  return equation == Equation::motor ? (motor_torque.abs() * usable).maxCoeff() : torque_range;
+}
+
 void Frame::measure_torsion() {
   torsion_range = (torsion.abs() * usable).maxCoeff();
   rate_range = (torsion_rate.abs() * usable).maxCoeff();

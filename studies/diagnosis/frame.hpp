@@ -60,6 +60,9 @@ struct Frame {
 
   Eigen::Index rows() const { return time.size(); }
   bool has(Equation equation) const;
+  /// Largest |torque| that an equation explains, over usable rows: at the motor shaft or across the
+  /// transmission.
+  double largest_torque(Equation equation) const;
   /// Ranges of torsion and rate anew, after a change of either.
   void measure_torsion();
 };

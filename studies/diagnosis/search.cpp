@@ -131,18 +131,13 @@ int parameters_of(const ActiveCause& cause, const ModelFit& fit) {
   return std::max(count, 1);
 }
 
-double torque_of(const Frame& frame, Equation equation) {
-  return equation == Equation::motor ? (frame.motor_torque.abs() * frame.usable).maxCoeff()
-                                     : frame.torque_range;
-}
-
 double size_of(const Frame& frame, const Findings& findings, const Trial& trial) {
   double size = 0.0;
   for (Equation equation : trial.cause.form->at) {
     if (!frame.has(equation)) continue;
     const ArrayXd part = contribution(frame, trial.fit.model, findings.reference,
                                       trial.fit.model.causes.size() - 1, equation);
-    size = std::max(size, (part.abs() * frame.usable).maxCoeff() / torque_of(frame, equation));
+    size = std::max(size, (part.abs() * frame.usable).maxCoeff() / frame.largest_torque(equation));
   }
   return size;
 }
@@ -154,7 +149,8 @@ double change_of(const Frame& frame, const Findings& findings, const Trial& tria
     if (!frame.has(equation)) continue;
     const std::size_t e = index_of(equation);
     const ArrayXd part = trial.fit.prediction[e] - findings.fit.prediction[e];
-    change = std::max(change, (part.abs() * frame.usable).maxCoeff() / torque_of(frame, equation));
+    change =
+        std::max(change, (part.abs() * frame.usable).maxCoeff() / frame.largest_torque(equation));
   }
   return change;
 }

@@ -10,6 +10,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/data/commitment.hpp"
+#include "trial/effect_trace.hpp"
 #include "trial/trial_json.hpp"
 
 namespace flexspline::studies {
@@ -23,16 +24,25 @@ struct Attempt {
   double seconds = 0.0;
 };
 
-/// The bench may not bring an effect to the drawn size; then another bench tries.
-Result<ConcealedCase> conceal_case(const TrialCase& one) {
+/// The bench may not bring an effect to the drawn size; then the plan gets another bench.
+Result<ConcealedCase> conceal_case(ConcealPlan& plan) {
   constexpr std::uint64_t kBenches = 8;
-  ConcealPlan plan = one.plan;
+  const std::uint64_t seed = plan.seed;
   for (std::uint64_t attempt = 1;; ++attempt) {
     auto concealed = conceal(plan);
     const bool unreachable = !concealed && concealed.error().code == ErrorCode::usage;
     if (!unreachable || attempt == kBenches) return concealed;
-    plan.seed = lot_bits(one.plan.seed, "other bench", attempt);
+    plan.seed = lot_bits(seed, "other bench", attempt);
   }
+}
+
+/// Not known where the baseline cannot be fitted.
+std::vector<EffectTrace> known_traces(const ConcealPlan& plan, const RecordingSet& recordings) {
+  auto traces = traces_of(plan, recordings);
+  if (traces) return *std::move(traces);
+  std::vector<EffectTrace> unknown;
+  for (const data::HiddenEffect& effect : plan.effects) unknown.push_back({.effect = effect.id});
+  return unknown;
 }
 
 Result<std::string> salt_of(const TrialCase& one, const TrialSettings& settings) {
@@ -89,7 +99,8 @@ ordered_json empty_artefact(const TrialCase& one, const std::string& depends_on)
                            {"key", one.key},
                            {"depends_on", depends_on},
                            {"status", "done"}};
-  for (const char* key : {"failure", "commitment", "sealed", "diagnosis", "score", "seconds"}) {
+  for (const char* key :
+       {"failure", "commitment", "sealed", "diagnosis", "score", "seconds", "trace"}) {
     artefact[key] = nullptr;
   }
   return artefact;
@@ -113,7 +124,8 @@ std::string dependencies_of(const TrialConfig& trial, const TrialCase& one,
 Result<ordered_json> compute_trial_case(const TrialConfig& trial, const TrialCase& one,
                                         const TrialSettings& settings, const Diagnose& diagnose) {
   ordered_json artefact = empty_artefact(one, dependencies_of(trial, one, settings.run.build_id));
-  const auto concealed = conceal_case(one);
+  ConcealPlan plan = one.plan;
+  const auto concealed = conceal_case(plan);
   if (!concealed) {
     artefact["status"] = "not concealed";
     artefact["failure"] = concealed.error().message();
@@ -128,6 +140,7 @@ Result<ordered_json> compute_trial_case(const TrialConfig& trial, const TrialCas
   const auto scored =
       score(diagnose_case(concealed->recordings, trial.time_limit, diagnose), artefact);
   if (!scored) return tl::unexpected(scored.error());
+  artefact["trace"] = to_json(known_traces(plan, concealed->recordings));
   return artefact;
 }
 

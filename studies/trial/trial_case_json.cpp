@@ -111,6 +111,14 @@ ordered_json to_json(const CaseScore& score) {
           {"gain_share", score.gain_share}};
 }
 
+ordered_json to_json(const std::vector<EffectTrace>& traces) {
+  ordered_json list = ordered_json::array();
+  for (const EffectTrace& trace : traces) {
+    list.push_back({{"effect", trace.effect}, {"share", trace.share}, {"sigma", trace.sigma}});
+  }
+  return list;
+}
+
 Result<ScoredCase> scored_case_from_json(const ordered_json& artefact) {
   try {
     ScoredCase one;
@@ -120,6 +128,10 @@ Result<ScoredCase> scored_case_from_json(const ordered_json& artefact) {
     one.answer = *std::move(answer);
     one.score = score_from_json(artefact.at("score"));
     one.seconds = number(artefact, "seconds");
+    for (const ordered_json& trace : artefact.at("trace")) {
+      one.traces.push_back(
+          {trace.at("effect").get<std::string>(), number(trace, "share"), number(trace, "sigma")});
+    }
     one.verdict = "failed";
     if (artefact.at("failure").is_string()) one.failure = artefact.at("failure").get<std::string>();
     if (artefact.at("diagnosis").is_object() && !one.score.failed) {

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 
+#include "diagnosis/selection.hpp"
 #include "trial/trial_json.hpp"
 
 namespace flexspline::studies {
@@ -20,26 +23,57 @@ std::string named_label(const ScoredCase& one) {
   return one.score.kind == CaseKind::pair && right ? "one of the two" : name;
 }
 
-}  // namespace
-
-std::vector<SizeBin> detection_by_size(const std::vector<ScoredCase>& cases) {
-  constexpr double kEdges[] = {0.0, 0.02, 0.03, 0.04, 0.06, 0.08, 0.10};
-  std::vector<SizeBin> bins;
-  for (std::size_t k = 0; k < std::size(kEdges); ++k) {
-    const bool last = k + 1 == std::size(kEdges);
-    bins.push_back({kEdges[k], last ? std::numeric_limits<double>::infinity() : kEdges[k + 1]});
+// Edges: the lower ones of each bin; the last has no upper end.
+std::vector<DetectionBin> detection_by(const std::vector<ScoredCase>& cases,
+                                       const std::vector<double>& edges,
+                                       const std::function<double(const ScoredCase&)>& of) {
+  std::vector<DetectionBin> bins;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const bool last = k + 1 == edges.size();
+    bins.push_back({edges[k], last ? std::numeric_limits<double>::infinity() : edges[k + 1]});
   }
   for (const ScoredCase& one : cases) {
     if (one.score.kind != CaseKind::single) continue;
-    const double size = one.answer.effects.front().size_fraction;
-    const auto bin = std::ranges::find_if(bins, [size](const SizeBin& b) { return size < b.to; });
+    const double value = of(one);
+    const auto bin =
+        std::ranges::find_if(bins, [value](const DetectionBin& b) { return value < b.to; });
+    if (bin == bins.end()) continue;
     ++bin->cases;
     bin->detected += one.score.detected ? 1 : 0;
     bin->first_right += one.score.first_right ? 1 : 0;
     bin->exact += one.score.exact ? 1 : 0;
   }
-  std::erase_if(bins, [](const SizeBin& bin) { return bin.cases == 0; });
+  std::erase_if(bins, [](const DetectionBin& bin) { return bin.cases == 0; });
   return bins;
+}
+
+}  // namespace
+
+std::vector<DetectionBin> detection_by_size(const std::vector<ScoredCase>& cases) {
+  return detection_by(cases, {0.0, 0.02, 0.03, 0.04, 0.06, 0.08, 0.10}, [](const ScoredCase& one) {
+    return one.answer.effects.front().size_fraction;
+  });
+}
+
+std::vector<DetectionBin> detection_by_trace(const std::vector<ScoredCase>& cases) {
+  return detection_by(cases, {0.0, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064},
+                      [](const ScoredCase& one) { return one.least_trace(); });
+}
+
+double ScoredCase::least_trace() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const EffectTrace& trace : traces) {
+    if (!std::isfinite(trace.share)) return kNotComputed;
+    least = std::min(least, trace.share);
+  }
+  return least;
+}
+
+std::vector<ScoredCase> that_can_be_seen(const std::vector<ScoredCase>& cases) {
+  const double limit = Limits{}.size;
+  std::vector<ScoredCase> seen = cases;
+  std::erase_if(seen, [limit](const ScoredCase& one) { return !(one.least_trace() >= limit); });
+  return seen;
 }
 
 Confusion confusion_of(const std::vector<ScoredCase>& cases) {

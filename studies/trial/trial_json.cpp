@@ -28,6 +28,7 @@ ordered_json case_json(const ScoredCase& one) {
       {"rig", name_of(one.answer.rig)},
       {"effects", ordered_json::array()},
       {"size", ordered_json::array()},
+      {"trace", ordered_json::array()},
       {"verdict", one.verdict},
       {"named", one.named},
       {"right",
@@ -39,6 +40,7 @@ ordered_json case_json(const ScoredCase& one) {
     json["effects"].push_back(effect.id);
     json["size"].push_back(effect.size_fraction);
   }
+  for (const EffectTrace& trace : one.traces) json["trace"].push_back(trace.share);
   return json;
 }
 
@@ -73,16 +75,22 @@ ordered_json twins_json(const TrialConfig& trial) {
   return list;
 }
 
-void add_groups(const std::vector<ScoredCase>& cases, ordered_json& json) {
-  json["by_size"] = ordered_json::array();
-  for (const SizeBin& bin : detection_by_size(cases)) {
-    json["by_size"].push_back({{"from", bin.from},
-                               {"to", bin.to},
-                               {"cases", bin.cases},
-                               {"detected", bin.detected},
-                               {"single_top", bin.first_right},
-                               {"single_exact", bin.exact}});
+ordered_json bins_json(const std::vector<DetectionBin>& bins) {
+  ordered_json list = ordered_json::array();
+  for (const DetectionBin& bin : bins) {
+    list.push_back({{"from", bin.from},
+                    {"to", bin.to},
+                    {"cases", bin.cases},
+                    {"detected", bin.detected},
+                    {"single_top", bin.first_right},
+                    {"single_exact", bin.exact}});
   }
+  return list;
+}
+
+void add_groups(const std::vector<ScoredCase>& cases, ordered_json& json) {
+  json["by_size"] = bins_json(detection_by_size(cases));
+  json["by_trace"] = bins_json(detection_by_trace(cases));
   json["by_effect"] = ordered_json::array();
   for (const auto& [group, some] : by_effect(cases)) {
     ordered_json row = scores_json(score_trial(some));
@@ -109,6 +117,7 @@ ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary,
                        {"build_id", build_id},
                        {"design", design_json(trial)},
                        {"scores", scores_json(score_trial(summary.cases))},
+                       {"scores_seen", scores_json(score_trial(that_can_be_seen(summary.cases)))},
                        {"by_rig", ordered_json::object()}};
   for (const Rig rig : trial.rigs) {
     json["by_rig"][std::string(name_of(rig))] =

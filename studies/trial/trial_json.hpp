@@ -12,6 +12,7 @@ namespace flexspline::studies {
 nlohmann::ordered_json excerpt_of(const Diagnosis& diagnosis);
 
 nlohmann::ordered_json to_json(const CaseScore& score);
+nlohmann::ordered_json to_json(const std::vector<EffectTrace>& traces);
 
 /// A case as its artefact (docs/trials.md) holds it. Errors: bad_data.
 Result<ScoredCase> scored_case_from_json(const nlohmann::ordered_json& artefact);
@@ -23,8 +24,8 @@ nlohmann::ordered_json trial_json(const TrialConfig& trial, const TrialSummary& 
 /// DIR/tables/*.csv and *.md. Errors: cannot_write.
 Result<void> write_trial_tables(const TrialSummary& summary, const std::filesystem::path& folder);
 
-/// Single effects whose size lies in [from, to).
-struct SizeBin {
+/// Single effects whose size, or trace, lies in [from, to).
+struct DetectionBin {
   double from = 0.0;
   double to = 0.0;
   int cases = 0;
@@ -33,7 +34,8 @@ struct SizeBin {
   int exact = 0;
 };
 
-std::vector<SizeBin> detection_by_size(const std::vector<ScoredCase>& cases);
+std::vector<DetectionBin> detection_by_size(const std::vector<ScoredCase>& cases);
+std::vector<DetectionBin> detection_by_trace(const std::vector<ScoredCase>& cases);
 
 /// How often a truth got a first name; pairs are "two effects" and "one of the two".
 using Confusion = std::map<std::pair<std::string, std::string>, int>;

@@ -27,8 +27,8 @@ std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, " + "));
 }
 
-TextTable rates(const TrialScores& scores) {
-  TextTable table{"rates", {{"rate", "count", "of", "percent", "from", "to (95 %)"}}};
+TextTable rates(const std::string& table_name, const TrialScores& scores) {
+  TextTable table{table_name, {{"rate", "count", "of", "percent", "from", "to (95 %)"}}};
   for (const auto& [name, one] : scores.rates) {
     table.rows.push_back({name, std::to_string(one.count), std::to_string(one.of),
                           percent(one.rate()), percent(one.lower), percent(one.upper)});
@@ -37,8 +37,9 @@ TextTable rates(const TrialScores& scores) {
 }
 
 TextTable scores(const TrialSummary& summary) {
-  TextTable table{"scores", {{"score", "all"}}};
-  std::vector<TrialScores> columns = {score_trial(summary.cases)};
+  TextTable table{"scores", {{"score", "all", "that can be seen"}}};
+  std::vector<TrialScores> columns = {score_trial(summary.cases),
+                                      score_trial(that_can_be_seen(summary.cases))};
   for (const Rig rig : {Rig::locked, Rig::free, Rig::specimen, Rig::servo}) {
     const auto some = of_rig(summary.cases, rig);
     if (some.empty()) continue;
@@ -76,10 +77,11 @@ TextTable confusion(const std::vector<ScoredCase>& cases) {
   return table;
 }
 
-TextTable sizes(const std::vector<ScoredCase>& cases) {
-  TextTable table{"by_size",
-                  {{"size from %", "to %", "cases", "detected", "named first", "exactly"}}};
-  for (const SizeBin& bin : detection_by_size(cases)) {
+TextTable detection(const std::string& name, const std::string& what,
+                    const std::vector<DetectionBin>& bins) {
+  TextTable table{name,
+                  {{what + " from %", "to %", "cases", "detected", "named first", "exactly"}}};
+  for (const DetectionBin& bin : bins) {
     table.rows.push_back({percent(bin.from), percent(bin.to), std::to_string(bin.cases),
                           std::to_string(bin.detected), std::to_string(bin.first_right),
                           std::to_string(bin.exact)});
@@ -103,18 +105,20 @@ TextTable effects(const std::vector<ScoredCase>& cases) {
 }
 
 TextTable list(const std::vector<ScoredCase>& cases) {
-  TextTable table{
-      "cases",
-      {{"case", "rig", "hidden", "size %", "verdict", "named", "hold-out over noise", "seconds"}}};
+  TextTable table{"cases",
+                  {{"case", "rig", "hidden", "size %", "trace %", "verdict", "named",
+                    "hold-out over noise", "seconds"}}};
   for (const ScoredCase& one : cases) {
     std::vector<std::string> hidden;
     std::vector<std::string> size;
+    std::vector<std::string> trace;
     for (const data::HiddenFinding& effect : one.answer.effects) {
       hidden.push_back(effect.id);
       size.push_back(percent(effect.size_fraction));
     }
+    for (const EffectTrace& left : one.traces) trace.push_back(percent(left.share));
     table.rows.push_back({one.key, std::string(name_of(one.answer.rig)), joined(hidden),
-                          joined(size), one.verdict, joined(one.named),
+                          joined(size), joined(trace), one.verdict, joined(one.named),
                           shown(one.score.after_over_noise), shown(one.seconds)});
   }
   return table;
@@ -139,8 +143,11 @@ Result<void> write(const std::filesystem::path& folder, const TextTable& table) 
 
 Result<void> write_trial_tables(const TrialSummary& summary, const std::filesystem::path& folder) {
   const auto& cases = summary.cases;
-  for (const TextTable& table : {scores(summary), rates(score_trial(cases)), confusion(cases),
-                                 sizes(cases), effects(cases), list(cases)}) {
+  for (const TextTable& table :
+       {scores(summary), rates("rates", score_trial(cases)),
+        rates("rates_seen", score_trial(that_can_be_seen(cases))), confusion(cases),
+        detection("by_size", "size", detection_by_size(cases)),
+        detection("by_trace", "trace", detection_by_trace(cases)), effects(cases), list(cases)}) {
     if (const auto written = write(folder, table); !written) return written;
   }
   return {};

@@ -197,7 +197,7 @@ TEST(TrialReport, ShowsScoresConfusionAndEveryCase) {
   EXPECT_TRUE(contains(markup, "called adequate in 15 of 15 (95 %: 78.2 to 100 %)"));
   EXPECT_TRUE(contains(markup, "2 of 4 answers are right in full."));
   EXPECT_TRUE(contains(folder.text("tables/trial-wrong.csv"),
-                       "case-0002,locked,viscoelastic creep,3.0,explained: presliding hysteresis"));
+                       "case-0002,locked,viscoelastic creep,3.0,1.8,explained: presliding hysteresis"));
   EXPECT_FALSE(contains(markup, "<img"));
 }
 
@@ -229,6 +229,17 @@ TEST(TrialReport, SharesOfASizeAreThoseOfItsCases) {
   EXPECT_EQ(series[0]["x"][0], 2.5);
   EXPECT_EQ(series[0]["y"][0], 87.5);
   EXPECT_EQ(series[1]["y"][0], 75.0);
+}
+
+TEST(TrialReport, ShowsWhatIsLeftOfAnEffectBesideItsSize) {
+  const StudyFolder folder("trial_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json panel = figure_of(folder, "detection")["frames"][0]["panels"][1];
+  EXPECT_EQ(panel["series"][0]["x"][1], 0.6);
+  EXPECT_EQ(panel["series"][0]["y"][1], 75.0);
+  EXPECT_EQ(figure_of(folder, "rates")["frames"][0]["panels"][0]["series"][2]["name"],
+            "of those that can be seen");
+  EXPECT_TRUE(contains(folder.text("tables/trial-cases.csv"), "backlash,5.0,3.0,explained"));
 }
 
 TEST(VerificationReport, SaysWhatDiffersAndWhatMayExplainIt) {

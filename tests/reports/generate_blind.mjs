@@ -89,12 +89,13 @@ const confusion = [
   { truth: "unknown:cross", named: "no name", count: 6 }, { truth: kHostile, named: "failed", count: 1 },
 ];
 const trialCase = (key, rig, effects, size, verdict, named, right, failure = null) =>
-  ({ key, rig, effects, size, verdict, named, right, after_over_noise: named.length ? 1.04 : null, seconds: 8.5, failure });
+  ({ key, rig, effects, size, trace: size.map((one) => round(0.6 * one)), verdict, named, right, after_over_noise: named.length ? 1.04 : null, seconds: 8.5, failure });
 write("trial_fixture/trial.json", {
   schema: "flexspline-trial-result/1", name: "trial", title: `Blind trial ${kHostile}`, build_id: "abc123",
   design: { seed: 7, cases: 60, rigs: ["locked", "free"], none: 0.25, one: 0.5, two: 0.15, unknown: 0.1, size_fraction: [0.02, 0.1], effects: [kHostile] },
-  scores: scores(60), by_rig: { locked: scores(30), free: scores(30) },
+  scores: scores(60), scores_seen: scores(52), by_rig: { locked: scores(30), free: scores(30) },
   by_size: [[0.02, 0.03, 8, 7, 6, 6], [0.03, 0.04, 7, 7, 7, 6], [0.04, 0.06, 6, 6, 6, 6], [0.06, 0.08, 5, 5, 5, 5], [0.08, 0.1, 4, 4, 4, 4]].map(([from, to, cases, detected, top, exact]) => ({ from, to, cases, detected, single_top: top, single_exact: exact })),
+  by_trace: [[0, 0.002, 3, 0, 0, 0], [0.004, 0.008, 4, 3, 2, 2], [0.008, 0.016, 9, 9, 9, 8], [0.016, 0.032, 14, 14, 14, 14]].map(([from, to, cases, detected, top, exact]) => ({ from, to, cases, detected, single_top: top, single_exact: exact })),
   by_effect: kEffects.map((effect, i) => ({ rig: i % 2 ? "free" : "locked", effect, cases: 2, failed: 0, single_top: 2, single_exact: i === 1 ? 1 : 2, coord: 2, coord_ok: 2, holdout_after_over_noise_median: i === 3 ? null : 1.02 })),
   confusion,
   twins: [{ rig: "locked", effect: "torque_constant_error", twin: "torque_sensor_gain", reason: "No load is known." }],

@@ -29,7 +29,8 @@ struct ShownScores {
   ShownRate rate(const std::string& name) const;
 };
 
-struct ShownSizeBin {
+/// Single effects within a range of sizes, or of traces.
+struct ShownDetectionBin {
   double from = kAbsent;
   double to = kAbsent;  ///< absent: no upper end
   double cases = 0.0;
@@ -57,7 +58,7 @@ struct ShownConfusion {
 struct ShownTrialCase {
   std::string key, rig, verdict, failure;
   std::vector<std::string> effects, named;
-  std::vector<double> size;
+  std::vector<double> size, trace;
   bool right = false;
   double after_over_noise = kAbsent;
   double seconds = kAbsent;
@@ -72,8 +73,10 @@ struct TrialView {
   std::string name, title, build_id;
   std::string design;  ///< as it stands in the artefact
   ShownScores scores;
+  ShownScores scores_seen;  ///< of the cases that can be seen
   std::map<std::string, ShownScores> by_rig;
-  std::vector<ShownSizeBin> by_size;
+  std::vector<ShownDetectionBin> by_size;
+  std::vector<ShownDetectionBin> by_trace;
   std::vector<ShownEffectScore> by_effect;
   std::vector<ShownConfusion> confusion;
   std::vector<ShownTwin> twins;

@@ -84,16 +84,32 @@ struct CaseScore {
 /// Scores one case. diagnosis = nullptr: it failed.
 CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis);
 
+/// What is left of a concealed effect when the baseline has taken up what it can, in the equation
+/// that shows most of it.
+struct EffectTrace {
+  std::string effect;
+  double share = kNotComputed;  ///< largest trace over the largest torque of the equation
+  double sigma = kNotComputed;  ///< root of its chi square: how far it stands out of the noise
+};
+
 /// A scored case among others.
 struct ScoredCase {
   std::string key;
   ConcealedAnswer answer;
   std::string verdict;  ///< or "failed"
   std::vector<std::string> named;
+  std::vector<EffectTrace> traces;  ///< of the effects, in their order; empty: nothing is hidden
   CaseScore score;
   double seconds = kNotComputed;
   std::string failure;  ///< why there is no diagnosis
+
+  /// Smallest share of the traces; infinite where nothing is hidden.
+  double least_trace() const;
 };
+
+/// Cases whose every effect leaves a trace of at least the size below which a diagnosis names
+/// nothing, and those where nothing is hidden.
+std::vector<ScoredCase> that_can_be_seen(const std::vector<ScoredCase>& cases);
 
 /// An interval that contains a probability with 95 % confidence (Clopper and Pearson), from so many
 /// successes in so many trials. [0, 1] without trials.
