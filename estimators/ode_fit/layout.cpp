@@ -83,12 +83,14 @@ SystemSettings OdeLayout::integration(double tolerance) const {
   SystemSettings settings;
   settings.relative_tolerance = tolerance;
   for (const double scale : state_scale) settings.absolute_tolerance.push_back(tolerance * scale);
+  if (most_steps > 0) settings.max_steps = most_steps;
   return settings;
 }
 
 OdeLayout lay_out(const OdeFitProblem& problem, const OdeFitSettings& settings) {
   OdeLayout layout{problem.system,      problem.parameters,   {},
-                   problem.state_scale, problem.inequalities, {settings.loss, settings.loss_scale}};
+                   problem.state_scale, problem.inequalities, {settings.loss, settings.loss_scale},
+                   settings.most_steps};
   for (const auto& experiment : problem.experiments) {
     layout.experiments.push_back(lay_out(experiment, layout.states(), layout.unknowns));
   }

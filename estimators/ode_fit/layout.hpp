@@ -45,6 +45,7 @@ struct OdeLayout {
   std::vector<double> state_scale;
   std::shared_ptr<const OdeInequalities> inequalities{};
   RobustLoss loss{};
+  long most_steps = 0;
 
   std::size_t states() const { return system->states(); }
   std::vector<double> start() const;

@@ -12,9 +12,6 @@ namespace {
 
 constexpr double kAtBound = 1e-6;  // distance from a bound, in scales, that counts as on it
 constexpr int kRounds = 4;         // of letting go of bounds
-// Trial points in a row that cannot be evaluated: each shrinks the trust region by twice the factor
-// of the one before, in all by 2^78.
-constexpr int kInvalidSteps = 12;
 
 // What the blocks tell beside their values: how often they ran, and why one last failed.
 struct Log {
@@ -104,7 +101,6 @@ ceres::Solver::Options solver_options(const SolverSettings& settings) {
   options.initial_trust_region_radius = settings.trust_radius;
   options.min_lm_diagonal = settings.damping_floor;
   options.num_threads = settings.threads;
-  options.max_num_consecutive_invalid_steps = kInvalidSteps;
   options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
   return options;

@@ -28,8 +28,7 @@ class LeastSquaresProblem {
   virtual std::size_t blocks() const = 0;
   virtual std::size_t residuals(std::size_t block) const = 0;
   /// jacobian is residuals x parameters, row by row, or empty where it is not wanted.
-  /// Errors: numerics where this p cannot be simulated; the solver then takes a shorter step, up to
-  /// twelve times in a row.
+  /// Errors: numerics where this p cannot be simulated; the solver then takes a shorter step.
   virtual Result<void> evaluate(std::size_t block, std::span<const double> p,
                                 std::span<double> residual, std::span<double> jacobian) const = 0;
 };

@@ -38,6 +38,16 @@ TEST(OdeFit, CollocationAsksForSecondDerivatives) {
   EXPECT_THAT(fit.error().message(), HasSubstr("second derivatives"));
 }
 
+TEST(OdeFit, NamesTheParametersOfAStartThatCannotBeIntegrated) {
+  auto problem = decay();
+  problem.parameters[0].start = 1e9;
+  const auto fit = fit_ode(problem, OdeFitMethod::single_shooting, {.most_steps = 3});
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(fit.error().code, ErrorCode::numerics);
+  EXPECT_THAT(fit.error().message(), AllOf(HasSubstr("the start of the fit"), HasSubstr("'first'"),
+                                           HasSubstr("k = 1e+09"), HasSubstr("y(0) = ")));
+}
+
 std::string refusal(const OdeFitProblem& problem) {
   const auto fit = fit_ode(problem, OdeFitMethod::single_shooting);
   if (fit) return "accepted";

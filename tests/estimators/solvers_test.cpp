@@ -112,6 +112,35 @@ TEST(Minimise, StopsAtABound) {
   EXPECT_THAT(solution->bound_active, testing::ElementsAre(true, false));
 }
 
+/// p^3 - 1, which a simulation gives up to 1.25 and its derivative up to 1.01.
+class NarrowCubic final : public LeastSquaresProblem {
+ public:
+  std::size_t blocks() const override { return 1; }
+  std::size_t residuals(std::size_t) const override { return 1; }
+  Result<void> evaluate(std::size_t, std::span<const double> p, std::span<double> residual,
+                        std::span<double> jacobian) const override {
+    if (p[0] > (jacobian.empty() ? 1.25 : 1.01)) {
+      return failure(ErrorCode::numerics, "the integration stopped", "stay below");
+    }
+    residual[0] = p[0] * p[0] * p[0] - 1.0;
+    if (!jacobian.empty()) jacobian[0] = 3.0 * p[0] * p[0];
+    return {};
+  }
+};
+
+// The first step from 0.3 leads to 3.9; shorter ones end between 1 and 1.25, where the cost falls
+// but no derivative is to be had.
+TEST(Minimise, RejectsTrialPointsWithoutDerivativesWhereItIsAskedTo) {
+  const std::vector<BoundedParameter> unknown = {{.start = 0.3, .lower = -1e9, .upper = 1e9}};
+  auto settings = kPatient;
+  EXPECT_FALSE(minimise(NarrowCubic(), unknown, settings));
+  settings.slopes_at_trials = true;
+  const auto solution = minimise(NarrowCubic(), unknown, settings);
+  ASSERT_TRUE(solution) << solution.error().message();
+  EXPECT_EQ(solution->termination, Termination::converged);
+  EXPECT_NEAR(solution->p[0], 1.0, 1e-7);
+}
+
 TEST(Minimise, LeavesABoundThatItStartsOn) {
   auto parameters = from_the_valleys_far_end(10.0);
   parameters[0] = {.start = 0.0, .lower = 0.0, .upper = 10.0};

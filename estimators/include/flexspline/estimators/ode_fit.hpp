@@ -73,6 +73,7 @@ enum class Weighting { given, per_output, coloured };
 
 struct OdeFitSettings {
   double integration_tolerance = 1e-10;  ///< relative; absolute: times the state's scale
+  long most_steps = 200000;              ///< of an integration; beyond, a trial point has failed
   int max_iterations = 200;              ///< of each solve
   int segments = 8;                      ///< at most, of an experiment in multiple shooting
   double mesh_tolerance = 1e-10;  ///< error of an element of collocation, relative to state_scale
