@@ -25,7 +25,7 @@ EffectRow describe_directional_load_friction() {
       .range =
           "sliding, driving or back-driving; short of the magnitude by at most te; where the "
           "motor torque is a result, an implicit equation with one solution for km < 1",
-      .not_modelled = "the Stribeck-weighted second pair of M5",
+      .not_modelled = "the Stribeck-weighted second pair of M5 (stribeck_load_friction)",
       .source = "Duclusaud, Passault, Padois, Ly, ICRA 2025 (BAM), model M5",
       .parameters = {{"motor_share", "1", 0.0, 0.9, 0.08, "BAM: 0.001 (eRob80:100), 0.2 (MX-106)"},
                      {"load_share", "1", 0.0, 2.0, 0.02, "BAM: 0.02 (MX-106)"},

@@ -175,16 +175,18 @@ TEST(PositionDependentFriction, TurnsWithTheDirectionAndCoggingDoesNot) {
   }
 }
 
-// Near rest the load's share is the sum of both, far from it the Coulomb one's alone.
-TEST(StribeckLoadFriction, AddsToTheLoadsShareAndDiesWithSpeed) {
-  const auto share = [](double w) {
-    return term("stribeck_load_friction", {0.3, 10.0, 2.0, 1e-6, 1e-9}, loaded(w, 40.0, 2.0)) /
-           (40.0 / 50.0);
-  };
-  EXPECT_NEAR(share(1e-3), 0.3, 1e-7);
-  EXPECT_NEAR(share(10.0), 0.3 * std::exp(-1.0), 1e-9);
-  EXPECT_NEAR(share(-10.0), -share(10.0), 1e-15);
-  EXPECT_NEAR(share(100.0), 0.0, 1e-12);
+// At rest it is directional friction, whose shares die with speed.
+TEST(StribeckLoadFriction, IsDirectionalFrictionNearRestAndDiesWithSpeed) {
+  const std::vector<double> p = {0.3, 0.1, 10.0, 2.0, 1e-6, 1e-9};
+  const double squeeze = 0.3 * 2.0 + 0.1 * 40.0 / 50.0;
+  const auto at = [&](double w) { return term("stribeck_load_friction", p, loaded(w, 40.0, 2.0)); };
+  EXPECT_NEAR(at(1e-3), squeeze, 1e-7);
+  EXPECT_NEAR(at(1e-3),
+              term("directional_load_friction", {0.3, 0.1, 1e-6, 1e-9}, loaded(1e-3, 40.0, 2.0)),
+              1e-7);
+  EXPECT_NEAR(at(10.0), squeeze * std::exp(-1.0), 1e-8);
+  EXPECT_EQ(at(-10.0), -at(10.0));
+  EXPECT_NEAR(at(100.0), 0.0, 1e-12);
 }
 
 }  // namespace
