@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/estimators/multistart.hpp"
 #include "flexspline/estimators/ode_fit.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
 #include "given_model/given_parameters.hpp"
 #include "servo/servo_session.hpp"
 #include "servo/servo_start.hpp"
+#include "servo/servo_unknowns.hpp"
 #include "uncertainty/covariance.hpp"
 
 namespace flexspline::estimators {
@@ -16,54 +18,9 @@ namespace {
 
 constexpr double kMagnitude = 0.1;  // misfits beyond which an error costs its magnitude
 constexpr double kSigma = 0.03;     // rad: a size of the misfit, its factor is estimated
-
-/// The unknowns of a session and where each stands in the rig's parameter vector.
-struct Unknowns {
-  std::vector<OdeParameter> parameters;
-  std::vector<std::vector<std::size_t>> targets;
-};
-
-std::vector<std::size_t> places(const std::vector<DriveParameter>& all,
-                                std::initializer_list<std::string_view> names) {
-  std::vector<std::size_t> list;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (std::ranges::find(names, all[k].name) != names.end()) list.push_back(k);
-  }
-  return list;
-}
-
-void add_constant(Unknowns& unknowns, const std::vector<DriveParameter>& all,
-                  std::initializer_list<std::string_view> names, double start) {
-  const auto at = places(all, names);
-  unknowns.parameters.push_back({.name = std::string(*names.begin()),
-                                 .start = start,
-                                 .lower = 1e-3 * start,
-                                 .upper = 1e3 * start,
-                                 .scale = start,
-                                 .unit = all[at.front()].unit});
-  unknowns.targets.push_back(at);
-}
-
-Unknowns unknowns_of(const DriveSpec& drive, const std::vector<DriveParameter>& all,
-                     const std::vector<GivenParameter>& given) {
-  Unknowns unknowns;
-  add_constant(unknowns, all, {"torque_constant", "back_emf"}, drive.torque_constant);
-  add_constant(unknowns, all, {"resistance"}, drive.resistance);
-  add_constant(unknowns, all, {"motor_inertia"}, drive.motor_inertia);
-  std::size_t laws = 0;
-  for (const LawSpec* law : {&drive.torsion.f, &drive.torsion.g_inverse, &drive.torsion.h})
-    laws += law->coefficients.size();
-  // Effects come last in both lists.
-  const std::size_t effects = given.size() - laws;
-  for (std::size_t k = laws; k < given.size(); ++k) {
-    const GivenParameter& one = given[k];
-    if (one.held) continue;
-    const double scale = one.start != 0.0 ? std::abs(one.start) : 1.0;
-    unknowns.parameters.push_back({one.name, one.start, one.lower, one.upper, scale, one.unit});
-    unknowns.targets.push_back({all.size() - effects + k - laws});
-  }
-  return unknowns;
-}
+constexpr long kMostSteps = 20000;  // of one recording's simulation; some thousand are usual
+constexpr double kSpread = 2.0;     // factor within which other starts are drawn
+constexpr double kSameCost = 1e-3;  // relative: the tolerance of a fit's end, with room
 
 double initial_speed(const Recording& recording) {
   if (const auto* speed = recording.find(Quantity::velocity)) return speed->front();
@@ -135,6 +92,31 @@ Estimate estimate_of(const OdeFit& fit, const OdeFitProblem& problem) {
   return estimate;
 }
 
+OdeFitSettings how_to_fit(const ServoSettings& settings) {
+  OdeFitSettings how{.integration_tolerance = settings.tolerance,
+                     .most_steps = kMostSteps,
+                     .max_iterations = settings.most_iterations};
+  how.function_tolerance = 1e-5;
+  if (settings.loss == ServoLoss::absolute) {
+    how.loss = Loss::soft_l1;
+    how.loss_scale = kMagnitude;
+  }
+  how.propose_recording = false;
+  return how;
+}
+
+Result<OdeFit> fitted(const OdeFitProblem& problem, const ServoSettings& settings) {
+  const auto how = how_to_fit(settings);
+  if (settings.starts < 2) return fit_ode(problem, OdeFitMethod::single_shooting, how);
+  auto many = fit_ode_from_many(problem, OdeFitMethod::single_shooting, how,
+                                {.starts = settings.starts,
+                                 .seed = settings.seed,
+                                 .spread = kSpread,
+                                 .same_cost = kSameCost});
+  if (!many) return tl::unexpected(many.error());
+  return std::move(many->best);
+}
+
 }  // namespace
 
 Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
@@ -146,12 +128,13 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   if (!given) return tl::unexpected(given.error());
   const auto clock = servo_clock(*recordings, settings.duty);
   if (!clock) return tl::unexpected(clock.error());
-  auto drive = servo_start(set, *recordings);
-  if (!drive) return tl::unexpected(drive.error());
-  drive->torsion = model.model;
-  auto rig = make_rig(Rig::servo, *drive, clock->inputs, servo_form(settings.duty));
+  auto known = servo_start(set, *recordings);
+  if (!known) return tl::unexpected(known.error());
+  known->torsion = model.model;
+  const DriveSpec drive = with_weight_as_effect(*known);
+  auto rig = make_rig(Rig::servo, drive, clock->inputs, servo_form(settings.duty));
   if (!rig) return tl::unexpected(rig.error());
-  const Unknowns unknowns = unknowns_of(*drive, (*rig)->parameter_list(), *given);
+  const auto unknowns = servo_unknowns(drive, (*rig)->parameter_list(), *given, settings);
   const auto session = std::make_shared<ServoSession>(std::move(*rig), unknowns.targets);
   OdeFitProblem problem;
   problem.system = session;
@@ -161,22 +144,15 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
     problem.experiments.push_back(
         experiment_of(*(*recordings)[r], clock->start[r], session->states(), settings.every));
   }
-  OdeFitSettings how{.integration_tolerance = settings.tolerance,
-                     .max_iterations = settings.most_iterations};
-  how.function_tolerance = 1e-5;
-  if (settings.loss == ServoLoss::absolute) {
-    how.loss = Loss::soft_l1;
-    how.loss_scale = kMagnitude;
-  }
-  how.propose_recording = false;
-  const auto fit = fit_ode(problem, OdeFitMethod::single_shooting, how);
+  const auto fit = fitted(problem, settings);
   if (!fit) return tl::unexpected(fit.error());
-  ServoFit result{estimate_of(*fit, problem), *drive};
+  ServoFit result{estimate_of(*fit, problem), drive};
   std::vector<double> p;
   for (const ParameterEstimate& one : fit->parameters) p.push_back(one.value);
   const auto values = session->whole<double>(p);
-  result.drive = with_parameters(*drive, rig_row(Rig::servo).constants, values);
+  result.drive = with_parameters(drive, rig_row(Rig::servo).constants, values);
   result.estimate.model = result.drive.torsion;
+  result.estimate.model.effects.pop_back();
   result.estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return result;

@@ -5,6 +5,7 @@
 
 #include "flexspline/core/rig.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
+#include "servo/servo_unknowns.hpp"
 
 namespace flexspline::estimators {
 
@@ -23,10 +24,10 @@ constexpr std::string_view servo_form(ServoDuty duty) {
 /// cycle is not that of a proportional loop.
 Result<ServoClock> servo_clock(const std::vector<const Recording*>& recordings, ServoDuty duty);
 
-/// A rig of which some parameters are unknowns, one unknown serving several of them.
+/// A rig of which some parameters follow unknowns, one unknown serving several of them.
 class ServoSession final : public OdeSystem {
  public:
-  ServoSession(std::unique_ptr<RigSystem> rig, std::vector<std::vector<std::size_t>> targets)
+  ServoSession(std::unique_ptr<RigSystem> rig, std::vector<std::vector<RigTarget>> targets)
       : rig_(std::move(rig)), base_(rig_->parameter_vector()), targets_(std::move(targets)) {}
 
   std::size_t states() const override { return rig_->states(); }
@@ -44,7 +45,7 @@ class ServoSession final : public OdeSystem {
   std::vector<S> whole(std::span<const S> p) const {
     std::vector<S> values(base_.begin(), base_.end());
     for (std::size_t k = 0; k < targets_.size(); ++k) {
-      for (std::size_t at : targets_[k]) values[at] = p[k];
+      for (const RigTarget& one : targets_[k]) values[one.at] = one.base + one.slope * p[k];
     }
     return values;
   }
@@ -52,7 +53,7 @@ class ServoSession final : public OdeSystem {
  private:
   std::unique_ptr<RigSystem> rig_;
   std::vector<double> base_;
-  std::vector<std::vector<std::size_t>> targets_;
+  std::vector<std::vector<RigTarget>> targets_;
 };
 
 }  // namespace flexspline::estimators

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,22 +34,39 @@ Result<void> hold_out(RecordingSet& set, const std::vector<std::string>& ids) {
 
 tl::unexpected<Error> no_option(const std::string& given) {
   return failure(ErrorCode::bad_data, fmt::format("a servo's fit has no option {}", given),
-                 "it has duty=recorded or loop, and loss=squared or absolute");
+                 "it has duty=recorded or loop, loss=squared or absolute, zero=recorded or fitted, "
+                 "arm=massless or rod, and starts=1 to 1000");
+}
+
+/// Enters a word where it belongs. False: there is no such option.
+bool enter(estimators::ServoSettings& settings, const std::string& option) {
+  using namespace estimators;
+  const std::map<std::string, std::function<void()>> known = {
+      {"duty=recorded", [&] { settings.duty = ServoDuty::recorded; }},
+      {"duty=loop", [&] { settings.duty = ServoDuty::loop; }},
+      {"loss=squared", [&] { settings.loss = ServoLoss::squared; }},
+      {"loss=absolute", [&] { settings.loss = ServoLoss::absolute; }},
+      {"arm=massless", [&] { settings.arm = ServoArm::massless; }},
+      {"arm=rod", [&] { settings.arm = ServoArm::rod; }},
+      {"zero=recorded", [&] { settings.zero = ServoZero::recorded; }},
+      {"zero=fitted", [&] { settings.zero = ServoZero::fitted; }}};
+  const auto found = known.find(option);
+  if (found != known.end()) found->second();
+  return found != known.end();
 }
 
 Result<estimators::ServoSettings> settings_of(const estimators::Options& options) {
   estimators::ServoSettings settings;
   for (const auto& [name, value] : options.words) {
-    if (name == "duty" && value == "loop") {
-      settings.duty = estimators::ServoDuty::loop;
-    } else if (name == "loss" && value == "absolute") {
-      settings.loss = estimators::ServoLoss::absolute;
-    } else if (name + "=" + value != "duty=recorded" && name + "=" + value != "loss=squared") {
-      return no_option(name + "=" + value);
-    }
+    if (!enter(settings, name + "=" + value)) return no_option(name + "=" + value);
   }
-  if (options.numbers.empty()) return settings;
-  return no_option(options.numbers.begin()->first);
+  for (const auto& [name, value] : options.numbers) {
+    if (name != "starts" || !(value >= 1.0 && value <= 1000.0)) {
+      return no_option(fmt::format("{}={:g}", name, value));
+    }
+    settings.starts = static_cast<int>(value);
+  }
+  return settings;
 }
 
 /// Errors of the simulated angle over one recording, rad.

@@ -1,0 +1,97 @@
+#include "servo/servo_unknowns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flexspline/core/error.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+constexpr double kRodShare = 0.1;   // of the load's mass, at the start
+constexpr double kMostZero = 0.5;   // rad
+constexpr double kZeroSize = 0.02;  // rad
+
+std::size_t place_of(const std::vector<DriveParameter>& all, std::string_view name) {
+  const auto found = std::ranges::find(all, name, &DriveParameter::name);
+  expects(found != all.end(), "a servo's rig has this parameter");
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+void add_constant(ServoUnknowns& unknowns, const std::vector<DriveParameter>& all,
+                  std::initializer_list<std::string_view> names, double start) {
+  std::vector<RigTarget> targets;
+  for (const std::string_view name : names) targets.push_back({place_of(all, name)});
+  unknowns.parameters.push_back({.name = std::string(*names.begin()),
+                                 .start = start,
+                                 .lower = 1e-3 * start,
+                                 .upper = 1e3 * start,
+                                 .scale = start,
+                                 .unit = all[targets.front().at].unit});
+  unknowns.targets.push_back(std::move(targets));
+}
+
+/// A uniform rod from the axis to the load: half its mass pulls, a third of it is inert there.
+void add_rod(ServoUnknowns& unknowns, const std::vector<DriveParameter>& all,
+             const DriveSpec& drive, std::size_t moment) {
+  const double load = drive.load_inertia / (drive.arm_length * drive.arm_length);
+  unknowns.parameters.push_back({.name = "arm_mass",
+                                 .start = kRodShare * load,
+                                 .lower = 0.0,
+                                 .upper = 10.0 * load,
+                                 .scale = kRodShare * load,
+                                 .unit = "kg"});
+  const double inert = drive.arm_length * drive.arm_length / 3.0;
+  unknowns.targets.push_back({{moment, all[moment].value, 0.5 * drive.gravity * drive.arm_length},
+                              {place_of(all, "load_inertia"), drive.load_inertia, inert}});
+}
+
+void add_zero(ServoUnknowns& unknowns, std::size_t phase) {
+  unknowns.parameters.push_back({.name = "load_angle_zero",
+                                 .start = 0.0,
+                                 .lower = -kMostZero,
+                                 .upper = kMostZero,
+                                 .scale = kZeroSize,
+                                 .unit = "rad"});
+  unknowns.targets.push_back({{phase, 0.0, -1.0}});
+}
+
+void add_effects(ServoUnknowns& unknowns, const std::vector<GivenParameter>& given,
+                 std::size_t laws, std::size_t first) {
+  for (std::size_t k = laws; k < given.size(); ++k) {
+    const GivenParameter& one = given[k];
+    if (one.held) continue;
+    const double scale = one.start != 0.0 ? std::abs(one.start) : 1.0;
+    unknowns.parameters.push_back({one.name, one.start, one.lower, one.upper, scale, one.unit});
+    unknowns.targets.push_back({{first + k - laws}});
+  }
+}
+
+}  // namespace
+
+DriveSpec with_weight_as_effect(DriveSpec drive) {
+  const double moment = drive.load_mass * drive.gravity * drive.arm_length;
+  drive.torsion.effects.push_back({"gravity_load", {{"moment", moment}, {"phase", 0.0}}});
+  drive.load_mass = 0.0;
+  return drive;
+}
+
+ServoUnknowns servo_unknowns(const DriveSpec& drive, const std::vector<DriveParameter>& all,
+                             const std::vector<GivenParameter>& given,
+                             const ServoSettings& settings) {
+  ServoUnknowns unknowns;
+  add_constant(unknowns, all, {"torque_constant", "back_emf"}, drive.torque_constant);
+  add_constant(unknowns, all, {"resistance"}, drive.resistance);
+  add_constant(unknowns, all, {"motor_inertia"}, drive.motor_inertia);
+  // The weight's moment and phase are the rig's last parameters, behind those of the model.
+  const std::size_t moment = all.size() - 2;
+  if (settings.arm == ServoArm::rod) add_rod(unknowns, all, drive, moment);
+  if (settings.zero == ServoZero::fitted) add_zero(unknowns, moment + 1);
+  std::size_t laws = 0;
+  for (const LawSpec* law : {&drive.torsion.f, &drive.torsion.g_inverse, &drive.torsion.h})
+    laws += law->coefficients.size();
+  add_effects(unknowns, given, laws, moment - (given.size() - laws));
+  return unknowns;
+}
+
+}  // namespace flexspline::estimators

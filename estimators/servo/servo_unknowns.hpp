@@ -1,0 +1,33 @@
+#pragma once
+
+#include "flexspline/estimators/ode_fit.hpp"
+#include "flexspline/estimators/servo_fit.hpp"
+#include "given_model/given_parameters.hpp"
+
+namespace flexspline::estimators {
+
+/// What an unknown makes of a parameter of the rig: base + slope times it.
+struct RigTarget {
+  std::size_t at = 0;  ///< in the rig's parameter vector
+  double base = 0.0;
+  double slope = 1.0;
+};
+
+/// The unknowns of a servo's fit and what each makes of the rig's parameters.
+struct ServoUnknowns {
+  std::vector<OdeParameter> parameters;
+  std::vector<std::vector<RigTarget>> targets;
+};
+
+/// The drive with its weight as an effect, gravity_load, the last one: its phase is the zero of the
+/// angle.
+DriveSpec with_weight_as_effect(DriveSpec drive);
+
+/// Torque constant (and back-EMF), resistance, motor inertia, what the settings make unknown of the
+/// arm and of the zero of the angle, and the numbers of the model's effects that are not held. The
+/// drive's weight is an effect.
+ServoUnknowns servo_unknowns(const DriveSpec& drive, const std::vector<DriveParameter>& all,
+                             const std::vector<GivenParameter>& given,
+                             const ServoSettings& settings);
+
+}  // namespace flexspline::estimators
