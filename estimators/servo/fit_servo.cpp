@@ -19,6 +19,9 @@ namespace {
 constexpr double kMagnitude = 0.1;  // misfits beyond which an error costs its magnitude
 constexpr double kSigma = 0.03;     // rad: a size of the misfit, its factor is estimated
 constexpr long kMostSteps = 20000;  // of one recording's simulation; some thousand are usual
+constexpr const char* kRodNote =
+    "nothing measures a torque: the arm's mass is told by friction that grows with the load alone, "
+    "and by nothing where the model has none";
 constexpr double kSpread = 2.0;     // factor within which other starts are drawn
 constexpr double kSameCost = 1e-3;  // relative: the tolerance of a fit's end, with room
 
@@ -153,6 +156,7 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   result.drive = with_parameters(drive, rig_row(Rig::servo).constants, values);
   result.estimate.model = result.drive.torsion;
   result.estimate.model.effects.pop_back();
+  if (settings.arm == ServoArm::rod) result.estimate.notes.push_back(kRodNote);
   result.estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return result;

@@ -31,19 +31,29 @@ void add_constant(ServoUnknowns& unknowns, const std::vector<DriveParameter>& al
   unknowns.targets.push_back(std::move(targets));
 }
 
-/// A uniform rod from the axis to the load: half its mass pulls, a third of it is inert there.
+/// A uniform rod from the axis to the load: half its mass pulls, a third of it is inert there. All
+/// torques grow with the weight, so that resistance and motor inertia start in its proportion.
 void add_rod(ServoUnknowns& unknowns, const std::vector<DriveParameter>& all,
              const DriveSpec& drive, std::size_t moment) {
-  const double load = drive.load_inertia / (drive.arm_length * drive.arm_length);
+  const double square = drive.arm_length * drive.arm_length;
+  const double load = drive.load_inertia / square;
+  const double rod = kRodShare * load;
+  unknowns.targets.push_back({{moment, all[moment].value, 0.5 * drive.gravity * drive.arm_length},
+                              {place_of(all, "load_inertia"), drive.load_inertia, square / 3.0}});
+  const double heavier = 1.0 + 0.5 * kRodShare;
+  for (OdeParameter& one : unknowns.parameters) {
+    if (one.name == "resistance") one.start /= heavier;
+    if (one.name == "motor_inertia") {
+      const double total = heavier * (one.start + drive.load_inertia);
+      one.start = std::max(one.start, total - drive.load_inertia - rod * square / 3.0);
+    }
+  }
   unknowns.parameters.push_back({.name = "arm_mass",
-                                 .start = kRodShare * load,
+                                 .start = rod,
                                  .lower = 0.0,
                                  .upper = 10.0 * load,
-                                 .scale = kRodShare * load,
+                                 .scale = rod,
                                  .unit = "kg"});
-  const double inert = drive.arm_length * drive.arm_length / 3.0;
-  unknowns.targets.push_back({{moment, all[moment].value, 0.5 * drive.gravity * drive.arm_length},
-                              {place_of(all, "load_inertia"), drive.load_inertia, inert}});
 }
 
 void add_zero(ServoUnknowns& unknowns, std::size_t phase) {

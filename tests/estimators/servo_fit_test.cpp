@@ -5,68 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "flexspline/estimators/servo_fit.hpp"
+#include "servo_pendulum.hpp"
 
 namespace flexspline::estimators {
 namespace {
 
 using ::testing::HasSubstr;
-
-ModelSpec friction(double coulomb, double viscous, double load) {
-  const LawSpec nothing{.law = "odd_polynomial", .scale = 1.0, .knots = {}, .coefficients = {0.0}};
-  return {.f = nothing,
-          .g_inverse = nothing,
-          .h = {.law = "bounded_modulation", .knots = {}, .coefficients = {}},
-          .effects = {{"coulomb_viscous_friction",
-                       {{"coulomb", coulomb}, {"viscous", viscous}, {"smoothing", 0.05}}},
-                      {"directional_load_friction",
-                       {{"motor_share", load},
-                        {"load_share", 0.5 * load},
-                        {"smoothing", 0.05},
-                        {"load_smoothing", 0.01}}}}};
-}
-
-DriveSpec drive() {
-  DriveSpec d;
-  d.torsion = friction(0.03, 0.01, 0.1);
-  d.load_mass = 0.5;
-  d.arm_length = 0.1;
-  d.load_inertia = 0.005;
-  d.motor_inertia = 0.002;
-  d.torque_constant = d.back_emf = 0.4;
-  d.resistance = 4.0;
-  return d;
-}
-
-Recording recording(const std::string& id, double amplitude, double omega) {
-  Recording one;
-  one.id = id;
-  std::vector<double> duty;
-  std::vector<double> on;
-  for (int k = 0; k < 600; ++k) {
-    const double t = 0.01 * k;
-    one.time.push_back(t);
-    duty.push_back(amplitude * (std::sin(omega * t) + 0.4 * std::sin(3.3 * omega * t)));
-    on.push_back(t < 4.5 ? 1.0 : 0.0);
-  }
-  one.channels[Quantity::duty_cycle] = duty;
-  one.channels[Quantity::drive_enabled] = on;
-  one.channels[Quantity::supply_voltage].assign(one.time.size(), 7.4);
-  one.channels[Quantity::load_angle].assign(one.time.size(), 0.0);
-  one.channels[Quantity::load_angle] = *simulate_servo(drive(), one, 1e-9);
-  return one;
-}
-
-RecordingSet pendulum() {
-  RecordingSet set;
-  set.name = "pendulum";
-  set.rig = Rig::servo;
-  set.constants = {{"load_mass_kg", 0.5}, {"arm_length_m", 0.1}};
-  set.recordings = {recording("slow", 0.5, 2.0), recording("fast", 0.8, 5.0),
-                    recording("held", 0.6, 3.0)};
-  set.recordings.back().split = Split::holdout;
-  return set;
-}
 
 double value_of(const Estimate& estimate, const std::string& name) {
   for (const auto& one : estimate.parameters) {
@@ -139,6 +83,31 @@ TEST(ServoFit, LoopCorrectsWhatAModelMisses) {
     return sum;
   };
   EXPECT_LT(miss(ServoDuty::loop), 0.5 * miss(ServoDuty::recorded));
+}
+
+TEST(ServoFit, FindsTheAngleAtWhichTheLoadHangs) {
+  RecordingSet set = pendulum();
+  for (Recording& one : set.recordings) {
+    for (double& angle : one.channels[Quantity::load_angle]) angle += 0.03;
+  }
+  const auto fit = fit_servo(set, {friction(0.01, 0.002, 0.05), {}, {}},
+                             {.tolerance = 1e-7, .zero = ServoZero::fitted});
+  ASSERT_TRUE(fit) << fit.error().message();
+  EXPECT_NEAR(value_of(fit->estimate, "load_angle_zero"), 0.03, 1e-3);
+  EXPECT_NEAR(value_of(fit->estimate, "resistance"), 4.0, 0.04);
+  EXPECT_EQ(fit->estimate.model.effects.size(), 2u) << "those given";
+  const auto recorded = fit_servo(set, {friction(0.01, 0.002, 0.05), {}, {}}, {.tolerance = 1e-7});
+  ASSERT_TRUE(recorded) << recorded.error().message();
+  EXPECT_GT(recorded->estimate.cost, 100.0 * fit->estimate.cost);
+}
+
+TEST(ServoFit, SaysHowManyStartsComeHome) {
+  RecordingSet set = pendulum();
+  set.recordings.resize(1);
+  const GivenModel model = {friction(0.02, 0.005, 0.08), {"directional_load_friction"}, {}};
+  const auto fit = fit_servo(set, model, {.starts = 3, .seed = 4});
+  ASSERT_TRUE(fit) << fit.error().message();
+  EXPECT_THAT(fit->estimate.notes, testing::Contains(HasSubstr("of 3 starts end at the best")));
 }
 
 TEST(ServoFit, RefusesALoopThatDidNotRun) {
