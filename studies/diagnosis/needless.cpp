@@ -27,6 +27,11 @@ bool stands_for(const Accepted& a, const Accepted& b) {
                              [&](const Trial& t) { return t.cause.row == b.trial.cause.row; });
 }
 
+// Too small to be named, it would go into the baseline and take the place of the large one there.
+bool usurps(const Accepted& small, const Accepted& large) {
+  return !small.material && (stands_for(small, large) || stands_for(large, small));
+}
+
 bool share_equation(const Accepted& a, const Accepted& b) {
   return std::ranges::any_of(a.trial.cause.form->at, [&](Equation e) {
     return std::ranges::count(b.trial.cause.form->at, e) > 0;
@@ -127,8 +132,9 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
   for (std::size_t i : order) {
     const auto large = shadow_on(frame, s, i, worth.loss, limits);
-    if (!large) return {};
-    if (complete && stays(frame, limits, s, worth, i, *large)) continue;
+    if (!large) continue;
+    const bool may_stay = complete && !usurps(s.accepted[i], s.accepted[*large]);
+    if (may_stay && stays(frame, limits, s, worth, i, *large)) continue;
     return {i, "what it explains is no more than the form of a larger one may miss"};
   }
   return {};

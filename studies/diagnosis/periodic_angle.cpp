@@ -15,6 +15,7 @@ using Eigen::Index;
 
 constexpr double kStandsOut = 4.0;  // amplitude over its standard error
 constexpr Index kHalfWindow = 50;   // samples
+constexpr Index kFewestRows = 64;
 
 double ratio_of(const RecordingSet& set) {
   const auto found = set.constants.find("gear_ratio");
@@ -27,35 +28,44 @@ std::array<double, 4> orders_of(double ratio) { return {1.0, 2.0, 2.0 * (1.0 + 1
 struct Regression {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
-  double squares = 0.0;
-  Index rows = 0;
 };
 
-void gather(const Recording& recording, double ratio, Regression& regression) {
-  const auto* motor = recording.find(Quantity::motor_angle);
-  const auto* load = recording.find(Quantity::load_angle);
-  if (motor == nullptr || load == nullptr) return;
+Eigen::MatrixXd columns_of(const ArrayXd& theta, double ratio, const ArrayXd& weights) {
   const auto orders = orders_of(ratio);
-  const Index n = static_cast<Index>(motor->size());
-  const ArrayXd theta = Eigen::Map<const ArrayXd>(motor->data(), n);
-  const ArrayXd weights = parabola_weights(kHalfWindow);
-  const ArrayXd torsion =
-      about_parabola(theta / ratio - Eigen::Map<const ArrayXd>(load->data(), n), weights);
-  if (torsion.size() == 0) return;
-  Eigen::MatrixXd columns(torsion.size(), 2 * static_cast<Index>(orders.size()));
+  Eigen::MatrixXd columns(theta.size() - weights.size() + 1, 2 * static_cast<Index>(orders.size()));
   for (std::size_t k = 0; k < orders.size(); ++k) {
     const Index at = 2 * static_cast<Index>(k);
     columns.col(at) = about_parabola((orders[k] * theta).sin(), weights);
     columns.col(at + 1) = about_parabola((orders[k] * theta).cos(), weights);
   }
+  return columns;
+}
+
+// A recording counts by what its own regression leaves: where the torsion jumps, as in a staircase,
+// that is much, and much of it looks like turns.
+void gather(const Recording& recording, double ratio, Regression& regression) {
+  const auto* motor = recording.find(Quantity::motor_angle);
+  const auto* load = recording.find(Quantity::load_angle);
+  if (motor == nullptr || load == nullptr) return;
+  const Index n = static_cast<Index>(motor->size());
+  const ArrayXd theta = Eigen::Map<const ArrayXd>(motor->data(), n);
+  const ArrayXd weights = parabola_weights(kHalfWindow);
+  const Eigen::VectorXd torsion =
+      about_parabola(theta / ratio - Eigen::Map<const ArrayXd>(load->data(), n), weights);
+  if (torsion.size() < kFewestRows) return;
+  const Eigen::MatrixXd columns = columns_of(theta, ratio, weights);
+  const Eigen::MatrixXd normal = columns.transpose() * columns;
+  const Eigen::VectorXd right = columns.transpose() * torsion;
+  const double left =
+      torsion.squaredNorm() - right.dot(normal.completeOrthogonalDecomposition().solve(right));
+  const double variance = left / static_cast<double>(torsion.size() - columns.cols());
+  if (!(variance > 0.0)) return;
   if (regression.normal.size() == 0) {
     regression.normal = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
     regression.right = Eigen::VectorXd::Zero(columns.cols());
   }
-  regression.normal += columns.transpose() * columns;
-  regression.right += columns.transpose() * torsion.matrix();
-  regression.squares += torsion.square().sum();
-  regression.rows += torsion.size();
+  regression.normal += normal / variance;
+  regression.right += right / variance;
 }
 
 }  // namespace
@@ -91,7 +101,7 @@ PeriodicAngle periodic_angle(const RecordingSet& set) {
   const double ratio = ratio_of(set);
   Regression regression;
   for (const Recording& recording : set.recordings) gather(recording, ratio, regression);
-  if (regression.rows < 64) return periodic;
+  if (regression.normal.size() == 0) return periodic;
   const Eigen::VectorXd scale = regression.normal.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * regression.normal * scale.asDiagonal();
   const Eigen::MatrixXd inverse =
@@ -99,13 +109,11 @@ PeriodicAngle periodic_angle(const RecordingSet& set) {
       scaled.ldlt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols())) *
       scale.asDiagonal();
   const Eigen::VectorXd b = inverse * regression.right;
-  const double variance =
-      (regression.squares - b.dot(regression.right)) / static_cast<double>(regression.rows);
   const auto orders = orders_of(ratio);
   for (std::size_t k = 0; k < orders.size(); ++k) {
     const Index at = 2 * static_cast<Index>(k);
     const double amplitude = std::hypot(b[at], b[at + 1]);
-    if (amplitude < kStandsOut * std::sqrt(variance * inverse(at, at))) continue;
+    if (amplitude < kStandsOut * std::sqrt(inverse(at, at))) continue;
     periodic.terms.push_back({orders[k], ratio * b[at], ratio * b[at + 1]});
   }
   return periodic;

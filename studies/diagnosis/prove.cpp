@@ -17,12 +17,11 @@ constexpr int kSteps = 8;
 constexpr int kResamples = 400;
 constexpr Index kBlocksOfRecording = 8;
 
-// The cause that does worst on recordings held out, of those that would have shown there.
+// The cause that does worst on recordings held out.
 std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
-    if (!(proof.cause_ratio[i] >= limits.held_out) || proof.cause_shown[i] < limits.named_gain)
-      continue;
+    if (!(proof.cause_ratio[i] >= limits.held_out)) continue;
     if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;
   }
   return worst;
@@ -102,7 +101,6 @@ Equation first_equation_of(const Frame& frame, const Accepted& accepted) {
 struct HeldOut {
   PerEquation base, final, placebo;
   std::vector<ArrayXd> without;  ///< of the final model less each cause, in that cause's equation
-  std::vector<ArrayXd> change;   ///< of its prediction there
   ArrayXd before, after;         ///< predictions of the equation to prove, all rows
   double train_before = 0.0;     ///< sums of squares of the equation to prove, all folds
   double train_after = 0.0;
@@ -123,7 +121,6 @@ HeldOut nothing_yet(const Frame& frame, const Selection& s) {
           each,
           each,
           {s.accepted.size(), zero},
-          {s.accepted.size(), zero},
           s.baseline.fit.prediction[e],
           s.final.fit.prediction[e]};
 }
@@ -135,7 +132,6 @@ Result<void> take_causes(const Frame& frame, const Selection& s, const Findings&
     const auto without = reduced(frame, final, s.immaterial.size() + i, kSteps);
     if (!without) return tl::unexpected(without.error());
     pool.without[i] += without->residual[e] * rows;
-    pool.change[i] += (final.fit.prediction[e] - without->prediction[e]) * rows;
   }
   return {};
 }
@@ -182,8 +178,6 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const std::size_t e = index_of(first_equation_of(frame, s.accepted[i]));
     proof.cause_ratio.push_back(rms_on(pool.final[e], held) / rms_on(pool.without[i], held));
-    const ArrayXd weight = weights_of(frame, s.final.noise[e].level) * held;
-    proof.cause_shown.push_back((pool.change[i] * weight).square().sum() / s.final.noise[e].colour);
     const double instead = rms_on(pool.placebo[e], held);
     proof.placebo_ratio.push_back(instead > 0.0 ? instead / rms_on(pool.base[e], held)
                                                 : kNotComputed);

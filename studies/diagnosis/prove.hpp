@@ -17,7 +17,6 @@ struct Proof {
   double rmse_train_before = kNotComputed;
   double rmse_train_after = kNotComputed;
   std::vector<double> cause_ratio;    ///< final model over the final model without that cause
-  std::vector<double> cause_shown;    ///< what it changes there, in chi square
   std::vector<double> placebo_ratio;  ///< with an absent effect instead, over the baseline
   /// Measured torque of the equation to prove as the baseline and the final model predict it, all
   /// rows: where held out by the fits that did not see them, else by those to all recordings.
@@ -26,9 +25,8 @@ struct Proof {
 };
 Result<Proof> prove(const Frame& frame, const Selection& selection);
 
-/// The same, with the causes withdrawn that do not lower the error on recordings held out although
-/// they change the prediction there by as much as is asked of a name; the worst first, each time
-/// proved anew.
+/// The same, with the causes withdrawn that do not lower the error on recordings held out; the
+/// worst first, each time proved anew.
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

@@ -286,6 +286,22 @@ TEST(PeriodicAngle, FindsNothingInNoiseNorOnOtherRigs) {
   EXPECT_TRUE(periodic_angle(locked).terms.empty());
 }
 
+// Jumps look like turns wherever they happen to fall; the other recordings know better.
+TEST(PeriodicAngle, IsNotMisledByARecordingWhoseTorsionJumps) {
+  auto set = wobbling({}, 1e-6).set;
+  Recording stairs = set.recordings.front();
+  stairs.id = "stairs";
+  auto& load = stairs.channels[Quantity::load_angle];
+  for (std::size_t i = 0; i < load.size(); ++i) load[i] += (i / 150) % 2 == 0 ? 3e-4 : -3e-4;
+  RecordingSet alone = set;
+  alone.recordings = {stairs};
+  ASSERT_FALSE(periodic_angle(alone).terms.empty()) << "the jumps have to mislead";
+  set.recordings.push_back(stairs);
+  for (const auto& t : periodic_angle(set).terms) {
+    EXPECT_LT(std::hypot(t.sine, t.cosine), 2e-5) << t.order;
+  }
+}
+
 TEST(PeriodicAngle, KeepsItOutOfTheSmoothingAndPutsItBack) {
   const Wobbling w = wobbling(kError, 1e-7);
   const auto found = periodic_angle(w.set);
