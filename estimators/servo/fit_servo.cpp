@@ -120,6 +120,35 @@ Result<OdeFit> fitted(const OdeFitProblem& problem, const ServoSettings& setting
   return std::move(many->best);
 }
 
+OdeFitProblem problem_of(const std::shared_ptr<const ServoSession>& session,
+                         const ServoUnknowns& unknowns,
+                         const std::vector<const Recording*>& recordings, const ServoClock& clock,
+                         const ServoSettings& settings) {
+  OdeFitProblem problem;
+  problem.system = session;
+  problem.parameters = unknowns.parameters;
+  problem.state_scale.assign(session->states(), 1.0);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    problem.experiments.push_back(
+        experiment_of(*recordings[r], clock.start[r], session->states(), settings.every));
+  }
+  return problem;
+}
+
+/// The weight is of the drive, not of the model that was given.
+ServoFit result_of(const OdeFit& fit, const OdeFitProblem& problem, const ServoSession& session,
+                   const DriveSpec& drive, const ServoSettings& settings) {
+  ServoFit result{estimate_of(fit, problem), drive};
+  std::vector<double> p;
+  for (const ParameterEstimate& one : fit.parameters) p.push_back(one.value);
+  const auto values = session.whole<double>(p);
+  result.drive = with_parameters(drive, rig_row(Rig::servo).constants, values);
+  result.estimate.model = result.drive.torsion;
+  result.estimate.model.effects.pop_back();
+  if (settings.arm == ServoArm::rod) result.estimate.notes.push_back(kRodNote);
+  return result;
+}
+
 }  // namespace
 
 Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
@@ -139,24 +168,10 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   if (!rig) return tl::unexpected(rig.error());
   const auto unknowns = servo_unknowns(drive, (*rig)->parameter_list(), *given, settings);
   const auto session = std::make_shared<ServoSession>(std::move(*rig), unknowns.targets);
-  OdeFitProblem problem;
-  problem.system = session;
-  problem.parameters = unknowns.parameters;
-  problem.state_scale.assign(session->states(), 1.0);
-  for (std::size_t r = 0; r < recordings->size(); ++r) {
-    problem.experiments.push_back(
-        experiment_of(*(*recordings)[r], clock->start[r], session->states(), settings.every));
-  }
+  const OdeFitProblem problem = problem_of(session, unknowns, *recordings, *clock, settings);
   const auto fit = fitted(problem, settings);
   if (!fit) return tl::unexpected(fit.error());
-  ServoFit result{estimate_of(*fit, problem), drive};
-  std::vector<double> p;
-  for (const ParameterEstimate& one : fit->parameters) p.push_back(one.value);
-  const auto values = session->whole<double>(p);
-  result.drive = with_parameters(drive, rig_row(Rig::servo).constants, values);
-  result.estimate.model = result.drive.torsion;
-  result.estimate.model.effects.pop_back();
-  if (settings.arm == ServoArm::rod) result.estimate.notes.push_back(kRodNote);
+  ServoFit result = result_of(*fit, problem, *session, drive, settings);
   result.estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return result;
