@@ -16,9 +16,9 @@ using Eigen::ArrayXd;
 constexpr int kBaselineSteps = 15;
 constexpr int kFirstSteps = 3;
 constexpr int kRefineSteps = 12;
-constexpr int kNoisePasses = 3;          // the noise is measured on a fit that it weights
-constexpr double kWorthRefining = 0.03;  // of the best first gain
-constexpr std::size_t kMostRefined = 24;
+constexpr int kNoisePasses = 3;           // the noise is measured on a fit that it weights
+constexpr double kWorthRefining = 0.03;   // of the best first gain
+constexpr std::size_t kMostRefined = 12;  // the best was never beyond the seventh in 188 searches
 constexpr std::size_t kMostThreads = 8;
 
 // Equations whose fit a set of causes ties together, from those of one cause outward.
