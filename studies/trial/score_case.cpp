@@ -81,9 +81,14 @@ void score_names(const ConcealedAnswer& answer, const Diagnosis& diagnosis,
     score.exact = score.first_right && got.size() == 1;
   }
   if (score.kind == CaseKind::pair) {
-    score.pair_both = std::ranges::includes(found, truth);
-    score.pair_one = std::ranges::any_of(
-        truth, [&found](const std::string& effect) { return found.contains(effect); });
+    const auto is_found = [&](const std::string& effect) {
+      const auto twins = twins_of(effect, answer.rig);
+      return found.contains(effect) || std::ranges::any_of(twins, [&](const std::string& twin) {
+               return found.contains(twin);
+             });
+    };
+    score.pair_both = std::ranges::all_of(truth, is_found);
+    score.pair_one = std::ranges::any_of(truth, is_found);
   }
 }
 

@@ -94,6 +94,16 @@ TEST(ScoreOfAPair, WantsBothInAnyOrder) {
   EXPECT_EQ(none.false_names, 1);
 }
 
+TEST(ScoreOfAPair, TakesAStructuralTwinForItsEffectWhereItIsOne) {
+  const auto diagnosis =
+      diagnosis_with(explained, {cause("backlash"), cause("torque_constant_error")});
+  const std::vector<std::string> truth = {"backlash", "torque_sensor_gain"};
+  EXPECT_TRUE(score(answer_with(Rig::locked, truth), diagnosis).pair_both);
+  const auto elsewhere = score(answer_with(Rig::free, truth), diagnosis);
+  EXPECT_FALSE(elsewhere.pair_both);
+  EXPECT_TRUE(elsewhere.pair_one);
+}
+
 TEST(ScoreOfAnUnknown, IsRightWhenSomethingIsLeftOutAndHasNoName) {
   EXPECT_TRUE(score(kUnknown, diagnosis_with(unexplained, {})).unknown_right);
   EXPECT_TRUE(score(kUnknown, diagnosis_with(partly_explained, {})).unknown_right);
