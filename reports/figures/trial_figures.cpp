@@ -19,7 +19,8 @@ constexpr Rate kRates[] = {{"null_ok", "nothing hidden, called adequate"},
                            {"single_exact", "one effect, named exactly"},
                            {"pair_all", "two effects, both named"},
                            {"pair_one", "two effects, at least one named"},
-                           {"unknown_ok", "outside the catalogue, not named"},
+                           {"unknown_unnamed", "outside the catalogue, not named"},
+                           {"unknown_ok", "the same, and called unexplained"},
                            {"coord_ok", "right coordinate among three"},
                            {"false_name", "cases with a false name"}};
 
@@ -114,7 +115,7 @@ Figure rates_figure(const TrialView& view) {
     rates.y.push_back(row);
     if (const ShownRate one = view.scores_seen.rate(name); one.of > 0.0) {
       seen.x.push_back(100.0 * one.rate);
-      seen.y.push_back(row + 0.2);
+      seen.y.push_back(row);
     }
     intervals.x.insert(intervals.x.end(), {100.0 * rate.lower, 100.0 * rate.upper, kAbsent});
     intervals.y.insert(intervals.y.end(), {row, row, kAbsent});

@@ -23,7 +23,7 @@ std::string sentence_of(const TrialView& view) {
   };
   add("null_ok", ", those that hid nothing were called adequate in ", "");
   add("single_exact", "; a single effect was named, and nothing else, in ", "");
-  add("unknown_ok", "; what no catalogue has was given no name in ", "");
+  add("unknown_unnamed", "; what no catalogue has was given no name in ", "");
   add("false_name", "; a false name was given in ", "");
   return text + ".";
 }

@@ -50,6 +50,9 @@ void add_counters(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add_if("pair_one", &CaseScore::pair_one);
   add("unknown", count(cases, is(CaseKind::unknown)));
   add_if("unknown_ok", &CaseScore::unknown_right);
+  add("unknown_unnamed", count(cases, [](const CaseScore& score) {
+        return score.kind == CaseKind::unknown && !score.failed && score.named == 0;
+      }));
   add("false_names", sum(cases, &CaseScore::false_names));
   add("named", sum(cases, &CaseScore::named));
   add_if("coord", &CaseScore::has_coordinate);
@@ -66,6 +69,7 @@ void add_rates(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add("pair_all", "pair_all", "pair");
   add("pair_one", "pair_one", "pair");
   add("unknown_ok", "unknown_ok", "unknown");
+  add("unknown_unnamed", "unknown_unnamed", "unknown");
   add("coord_ok", "coord_ok", "coord");
   const int falsely = count(cases, [](const CaseScore& score) { return score.false_names > 0; });
   const int diagnosed = scores.counter("cases") - scores.counter("failed");

@@ -173,6 +173,7 @@ TEST(ScoresOfATrial, AreTheCountersOfPracticeCases) {
   expect("pair_one", 1);
   expect("unknown", 1);
   expect("unknown_ok", 0);
+  expect("unknown_unnamed", 1);
   expect("false_names", 1);
   expect("named", 3);
   expect("coord", 4);
