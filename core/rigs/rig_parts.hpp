@@ -66,10 +66,10 @@ S loop_rate(const DriveSpec& drive, const RigInputs& inputs, double t, const Ins
          gains.derivative * (bend - x.motor_acceleration);
 }
 
-/// A vector of complex numbers with the real parts of another scalar's.
-template <class S>
-std::vector<Complex> real_parts(std::span<const S> values) {
-  std::vector<Complex> list;
+/// The real parts of another scalar's numbers.
+template <class R = Complex, class S>
+std::vector<R> real_parts(std::span<const S> values) {
+  std::vector<R> list;
   list.reserve(values.size());
   for (const S& v : values) list.emplace_back(real_part(v));
   return list;

@@ -77,14 +77,26 @@ struct ServoDrive {
   template <class S>
   S solve(const DriveAt<S>& at, Instant<S>& x, double t, std::span<const S> y,
           std::span<const S> p) const {
-    const auto memory = real_parts(y.subspan(variables.size()));
-    const auto parameters = real_parts(p);
-    const DriveAt<Complex> complex_at(model, parameters, memory);
-    Instant<Complex> z = start<Complex>(t, y);
-    z.motor_torque = Complex(real_part(x.motor_torque));
-    z.motor_torque_rate = Complex(real_part(x.motor_torque_rate));
-    return implicit_root<S>([&](const Complex& a) { return -surplus(complex_at, z, a, t); },
-                            [&](const S& a) { return -surplus(at, x, a, t); }, 1.0);
+    const auto residual = [&](const S& a) { return -surplus(at, x, a, t); };
+    if constexpr (std::is_same_v<S, double>) {
+      return secant_root(residual, 1.0);
+    } else {
+      return implicit_root<S>(plain_residual<double>(x, t, y, p),
+                              plain_residual<Complex>(x, t, y, p), residual, 1.0);
+    }
+  }
+
+  // What solve makes zero, without the derivatives that S carries.
+  template <class R, class S>
+  auto plain_residual(const Instant<S>& x, double t, std::span<const S> y,
+                      std::span<const S> p) const {
+    Instant<R> z = start<R>(t, y);
+    z.motor_torque = R(real_part(x.motor_torque));
+    z.motor_torque_rate = R(real_part(x.motor_torque_rate));
+    return [this, t, z, memory = real_parts<R>(y.subspan(variables.size())),
+            parameters = real_parts<R>(p)](const R& a) mutable {
+      return -surplus(DriveAt<R>(model, parameters, memory), z, a, t);
+    };
   }
 };
 
