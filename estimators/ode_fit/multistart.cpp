@@ -5,7 +5,8 @@
 #include <random>
 
 #include <fmt/format.h>
-#include <boost/math/distributions/binomial.hpp>
+
+#include "ode_fit/home_rate.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -61,12 +62,10 @@ void count(const MultistartSettings& settings, const std::vector<OdeFit>& fits,
     result.converged += fit.termination == Termination::converged;
   }
   result.at_best = at_best(fits, settings.same_cost);
-  using Binomial = boost::math::binomial_distribution<>;
-  const double n = result.starts;
-  const double k = result.at_best;
-  result.rate = k / n;
-  result.rate_lower = Binomial::find_lower_bound_on_p(n, k, 0.025);
-  result.rate_upper = Binomial::find_upper_bound_on_p(n, k, 0.025);
+  const HomeRate home = home_rate(result.at_best, result.starts);
+  result.rate = home.rate;
+  result.rate_lower = home.lower;
+  result.rate_upper = home.upper;
   result.says = fmt::format(
       "{} of {} starts end at the best cost found, {} converge elsewhere, {} fail: from such "
       "starts "

@@ -4,26 +4,22 @@
 
 #include <fmt/format.h>
 
-#include "flexspline/estimators/multistart.hpp"
-#include "flexspline/estimators/ode_fit.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
 #include "given_model/given_parameters.hpp"
 #include "servo/servo_session.hpp"
+#include "servo/servo_solve.hpp"
 #include "servo/servo_start.hpp"
 #include "servo/servo_unknowns.hpp"
+#include "solvers/processor_share.hpp"
 #include "uncertainty/covariance.hpp"
 
 namespace flexspline::estimators {
 namespace {
 
-constexpr double kMagnitude = 0.1;  // misfits beyond which an error costs its magnitude
-constexpr double kSigma = 0.03;     // rad: a size of the misfit, its factor is estimated
-constexpr long kMostSteps = 20000;  // of one recording's simulation; some thousand are usual
+constexpr double kSigma = 0.03;  // rad: a size of the misfit, its factor is estimated
 constexpr const char* kRodNote =
     "nothing measures a torque: the arm's mass is told by friction that grows with the load alone, "
     "and by nothing where the model has none";
-constexpr double kSpread = 2.0;     // factor within which other starts are drawn
-constexpr double kSameCost = 1e-3;  // relative: the tolerance of a fit's end, with room
 
 double initial_speed(const Recording& recording) {
   if (const auto* speed = recording.find(Quantity::velocity)) return speed->front();
@@ -95,52 +91,46 @@ Estimate estimate_of(const OdeFit& fit, const OdeFitProblem& problem) {
   return estimate;
 }
 
-OdeFitSettings how_to_fit(const ServoSettings& settings) {
-  OdeFitSettings how{.integration_tolerance = settings.tolerance,
-                     .most_steps = kMostSteps,
-                     .max_iterations = settings.most_iterations};
-  how.function_tolerance = 1e-5;
-  if (settings.loss == ServoLoss::absolute) {
-    how.loss = Loss::soft_l1;
-    how.loss_scale = kMagnitude;
-  }
-  how.propose_recording = false;
-  return how;
-}
-
-Result<OdeFit> fitted(const OdeFitProblem& problem, const ServoSettings& settings) {
-  const auto how = how_to_fit(settings);
-  if (settings.starts < 2) return fit_ode(problem, OdeFitMethod::single_shooting, how);
-  auto many = fit_ode_from_many(problem, OdeFitMethod::single_shooting, how,
-                                {.starts = settings.starts,
-                                 .seed = settings.seed,
-                                 .spread = kSpread,
-                                 .same_cost = kSameCost});
-  if (!many) return tl::unexpected(many.error());
-  return std::move(many->best);
-}
-
-OdeFitProblem problem_of(const std::shared_ptr<const ServoSession>& session,
-                         const ServoUnknowns& unknowns,
+OdeFitProblem problem_of(std::shared_ptr<const ServoSession> session, const ServoUnknowns& unknowns,
                          const std::vector<const Recording*>& recordings, const ServoClock& clock,
                          const ServoSettings& settings) {
   OdeFitProblem problem;
-  problem.system = session;
   problem.parameters = unknowns.parameters;
   problem.state_scale.assign(session->states(), 1.0);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     problem.experiments.push_back(
         experiment_of(*recordings[r], clock.start[r], session->states(), settings.every));
   }
+  problem.system = std::move(session);
   return problem;
 }
 
+/// The problem as often as threads may work at it: a system serves one thread.
+Result<std::vector<OdeFitProblem>> problems_of(const DriveSpec& drive,
+                                               const std::vector<const Recording*>& recordings,
+                                               const ServoClock& clock,
+                                               const std::vector<GivenParameter>& given,
+                                               const ServoSettings& settings) {
+  const ProcessorShare share(0);
+  std::vector<OdeFitProblem> problems;
+  for (std::size_t k = 0; k < (settings.searches > 0 ? share.threads() : 1); ++k) {
+    auto rig = make_rig(Rig::servo, drive, clock.inputs, servo_form(settings.duty));
+    if (!rig) return tl::unexpected(rig.error());
+    auto unknowns = servo_unknowns(drive, (*rig)->parameter_list(), given, settings);
+    if (auto told = start_at(settings.start, unknowns); !told) return tl::unexpected(told.error());
+    auto session = std::make_shared<ServoSession>(std::move(*rig), unknowns.targets);
+    problems.push_back(problem_of(std::move(session), unknowns, recordings, clock, settings));
+  }
+  return problems;
+}
+
 /// The weight is of the drive, not of the model that was given.
-ServoFit result_of(const OdeFit& fit, const OdeFitProblem& problem, const ServoSession& session,
-                   const DriveSpec& drive, const ServoSettings& settings) {
+ServoFit result_of(const OdeFit& fit, const OdeFitProblem& problem, const DriveSpec& drive,
+                   const ServoSettings& settings) {
   ServoFit result{estimate_of(fit, problem), drive};
   std::vector<double> p;
   for (const ParameterEstimate& one : fit.parameters) p.push_back(one.value);
+  const auto& session = dynamic_cast<const ServoSession&>(*problem.system);
   const auto values = session.whole<double>(p);
   result.drive = with_parameters(drive, rig_row(Rig::servo).constants, values);
   result.estimate.model = result.drive.torsion;
@@ -164,14 +154,11 @@ Result<ServoFit> fit_servo(const RecordingSet& set, const GivenModel& model,
   if (!known) return tl::unexpected(known.error());
   known->torsion = model.model;
   const DriveSpec drive = with_weight_as_effect(*known);
-  auto rig = make_rig(Rig::servo, drive, clock->inputs, servo_form(settings.duty));
-  if (!rig) return tl::unexpected(rig.error());
-  const auto unknowns = servo_unknowns(drive, (*rig)->parameter_list(), *given, settings);
-  const auto session = std::make_shared<ServoSession>(std::move(*rig), unknowns.targets);
-  const OdeFitProblem problem = problem_of(session, unknowns, *recordings, *clock, settings);
-  const auto fit = fitted(problem, settings);
+  const auto problems = problems_of(drive, *recordings, *clock, *given, settings);
+  if (!problems) return tl::unexpected(problems.error());
+  const auto fit = solve_servo(*problems, settings);
   if (!fit) return tl::unexpected(fit.error());
-  ServoFit result = result_of(*fit, problem, *session, drive, settings);
+  ServoFit result = result_of(*fit, problems->front(), drive, settings);
   result.estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return result;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flexspline/core/error.hpp"
+#include <fmt/format.h>
+
+#include "flexspline/core/nearest_name.hpp"
 
 namespace flexspline::estimators {
 namespace {
@@ -102,6 +104,26 @@ ServoUnknowns servo_unknowns(const DriveSpec& drive, const std::vector<DrivePara
     laws += law->coefficients.size();
   add_effects(unknowns, given, laws, moment - (given.size() - laws));
   return unknowns;
+}
+
+Result<void> start_at(const std::map<std::string, double>& starts, ServoUnknowns& unknowns) {
+  std::vector<std::string_view> names;
+  for (const OdeParameter& one : unknowns.parameters) names.emplace_back(one.name);
+  for (const auto& [name, value] : starts) {
+    const auto found = std::ranges::find(unknowns.parameters, name, &OdeParameter::name);
+    if (found == unknowns.parameters.end()) {
+      return failure(ErrorCode::bad_data,
+                     fmt::format("a start is given for {}, which is no unknown of this fit", name),
+                     suggestion(name, names));
+    }
+    if (!(value >= found->lower && value <= found->upper)) {
+      return failure(ErrorCode::bad_data,
+                     fmt::format("{} starts at {:.6g} {}", name, value, found->unit),
+                     fmt::format("it lies in [{:.6g}, {:.6g}]", found->lower, found->upper));
+    }
+    found->start = value;
+  }
+  return {};
 }
 
 }  // namespace flexspline::estimators

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "flexspline/core/error.hpp"
 #include "flexspline/estimators/ode_fit.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
 #include "given_model/given_parameters.hpp"
@@ -29,5 +30,9 @@ DriveSpec with_weight_as_effect(DriveSpec drive);
 ServoUnknowns servo_unknowns(const DriveSpec& drive, const std::vector<DriveParameter>& all,
                              const std::vector<GivenParameter>& given,
                              const ServoSettings& settings);
+
+/// Unknowns by name start where they are told to; their bounds and scales stay.
+/// Errors: bad_data, for a name that is no unknown and for a start beyond its bounds.
+Result<void> start_at(const std::map<std::string, double>& starts, ServoUnknowns& unknowns);
 
 }  // namespace flexspline::estimators

@@ -19,6 +19,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::string_view kStart = "start.";  // and the name of an unknown
+constexpr double kMost = 1000.0;               // starts or searches, and the largest seed
+
 Result<void> hold_out(RecordingSet& set, const std::vector<std::string>& ids) {
   for (Recording& one : set.recordings) one.split = Split::train;
   for (const std::string& id : ids) {
@@ -35,7 +38,8 @@ Result<void> hold_out(RecordingSet& set, const std::vector<std::string>& ids) {
 tl::unexpected<Error> no_option(const std::string& given) {
   return failure(ErrorCode::bad_data, fmt::format("a servo's fit has no option {}", given),
                  "it has duty=recorded or loop, loss=squared or absolute, zero=recorded or fitted, "
-                 "arm=massless or rod, and starts=1 to 1000");
+                 "arm=massless or rod, starts, searches and seed=1 to 1000, and "
+                 "start.NAME=value, NAME an unknown");
 }
 
 /// Enters a word where it belongs. False: there is no such option.
@@ -55,16 +59,26 @@ bool enter(estimators::ServoSettings& settings, const std::string& option) {
   return found != known.end();
 }
 
+/// Enters a number where it belongs. False: there is no such option, or not with that number.
+bool enter(estimators::ServoSettings& settings, const std::string& option, double value) {
+  if (option.starts_with(kStart)) {
+    settings.start[option.substr(kStart.size())] = value;
+    return true;
+  }
+  if (!(value >= 1.0 && value <= kMost)) return false;
+  if (option == "starts") settings.starts = static_cast<int>(value);
+  if (option == "searches") settings.searches = static_cast<int>(value);
+  if (option == "seed") settings.seed = static_cast<std::uint64_t>(value);
+  return option == "starts" || option == "searches" || option == "seed";
+}
+
 Result<estimators::ServoSettings> settings_of(const estimators::Options& options) {
   estimators::ServoSettings settings;
   for (const auto& [name, value] : options.words) {
     if (!enter(settings, name + "=" + value)) return no_option(name + "=" + value);
   }
   for (const auto& [name, value] : options.numbers) {
-    if (name != "starts" || !(value >= 1.0 && value <= 1000.0)) {
-      return no_option(fmt::format("{}={:g}", name, value));
-    }
-    settings.starts = static_cast<int>(value);
+    if (!enter(settings, name, value)) return no_option(fmt::format("{}={:g}", name, value));
   }
   return settings;
 }

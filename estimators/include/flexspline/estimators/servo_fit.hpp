@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "flexspline/core/drive_spec.hpp"
@@ -41,9 +43,13 @@ struct ServoSettings {
   ServoLoss loss = ServoLoss::squared;
   ServoArm arm = ServoArm::massless;
   ServoZero zero = ServoZero::recorded;
-  int starts = 1;  ///< fits from as many starts, drawn within a factor of 2 about the usual one;
-                   ///< the best counts as converged where two end there
-  std::uint64_t seed = 1;  ///< of those starts
+  int starts = 1;    ///< fits from as many starts, drawn within a factor of 2 about the usual one;
+                     ///< the best counts as converged where two end there
+  int searches = 0;  ///< without derivatives (search_ode, 1500 simulations each, at 100 times the
+                     ///< tolerance), from whose best the fit starts, instead of several starts; it
+                     ///< counts as converged where two searches end there
+  std::uint64_t seed = 1;                 ///< of those starts or searches
+  std::map<std::string, double> start{};  ///< of unknowns by name, instead of their usual ones
 };
 
 /// Output error of a servo: its angle is simulated from the first sample of every training
