@@ -96,6 +96,9 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
   const double width = coulomb_width(frame, shape);
   c.columns.col(f) = (frame.torsion_rate / width).tanh();
   c.columns.col(f + 1) = frame.torsion_rate / frame.rate_range;
+  if (frame.torque_lag > 0.0) {
+    for (auto column : c.columns.colwise()) column = frame.recorded(column.array());
+  }
   return c;
 }
 

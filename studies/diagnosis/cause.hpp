@@ -26,6 +26,7 @@ struct Shape {
 struct Reference {
   Eigen::ArrayXd elastic;             ///< f(phi)
   Eigen::ArrayXd dissipative;         ///< g^-1(phi'/h)
+  Eigen::ArrayXd friction;            ///< the same and what causes of the model add to it
   Eigen::ArrayXd motor_sign;          ///< the motor's dry friction over its largest value
   double torsion_coulomb_rate = 1.0;  ///< rad/s (m/s) at which that across the gear saturates
 };
@@ -44,7 +45,9 @@ struct CauseForm {
   void (*transform)(Frame&, std::span<const double>) = nullptr;
   /// Start of the shapes of a transform, from the recordings; without it the grid is searched.
   std::vector<double> (*start)(const Frame&) = nullptr;
-  bool nonnegative = false;               ///< a_k >= 0
+  bool nonnegative = false;  ///< a_k >= 0
+  bool friction = false;     ///< resists the motion across the transmission, beside g^-1
+  bool extends = false;      ///< the form before it in the row, by its last shape
   bool (*where)(const Frame&) = nullptr;  ///< what the recordings must be like; nullptr: anything
   /// What it is in a model file, by the catalogue of effects.
   Counterpart (*counterpart)(const FittedCause&) = nullptr;

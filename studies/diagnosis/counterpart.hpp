@@ -25,6 +25,7 @@ struct FittedCause {
   const Eigen::VectorXd& coefficients;
   std::span<const SignPart> motor_sign;  ///< of the motor's dry friction, shares add up to one
   double torsion_coulomb_rate = 1.0;     ///< rad/s (m/s)
+  double slipping = 0.0;                 ///< largest friction across the gear beside g^-1, Nm
 };
 
 /// What a cause is in a model file.

@@ -315,6 +315,21 @@ double Frame::largest_torque(Equation equation) const {
   return equation == Equation::motor ? (motor_torque.abs() * usable).maxCoeff() : torque_range;
 }
 
+ArrayXd Frame::filtered(const ArrayXd& signal, double time_constant) const {
+  if (!(time_constant > 0.0)) return signal;
+  ArrayXd y(signal.size());
+  for (const Segment& s : segments) {
+    y[s.first] = signal[s.first];
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+      const double step = (time[r] - time[r - 1]) / time_constant;
+      const double kept = std::exp(-step);
+      const double slope = (signal[r] - signal[r - 1]) / step;
+      y[r] = signal[r] - slope + kept * (y[r - 1] - signal[r - 1] + slope);
+    }
+  }
+  return y;
+}
+
 void Frame::measure_torsion() {
   torsion_range = (torsion.abs() * usable).maxCoeff();
   rate_range = (torsion_rate.abs() * usable).maxCoeff();

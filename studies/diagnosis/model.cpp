@@ -197,6 +197,19 @@ void fill_residuals(const Frame& frame, ModelColumns& columns,
   }
 }
 
+// What a cause adds to the torsion equation before the torque is recorded.
+ArrayXd unfiltered(const Frame& seen, const Reference& reference, const DriveModel& model,
+                   std::size_t i) {
+  const ActiveCause& cause = model.causes[i];
+  ArrayXd sum = ArrayXd::Zero(seen.rows());
+  if (model.coefficients.size() <= i) return sum;
+  const Columns columns = cause.form->columns(Equation::torsion, seen, reference, cause.shape);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    sum += model.coefficients[i][static_cast<Index>(k)] * columns[k];
+  }
+  return sum;
+}
+
 }  // namespace
 
 DriveModel first_guess(const Frame& frame) {
@@ -272,17 +285,24 @@ Reference reference_of(const Frame& frame, const DriveModel& model) {
   Reference reference;
   reference.elastic = ArrayXd::Zero(frame.rows());
   reference.dissipative = ArrayXd::Zero(frame.rows());
+  reference.friction = reference.dissipative;
   reference.motor_sign = motor_sign(frame, model);
   reference.torsion_coulomb_rate = coulomb_width(frame, model.torsion_shape);
   const std::size_t e = index_of(Equation::torsion);
   if (model.own.size() <= e || model.own[e].size() == 0) return reference;
   ModelColumns columns(frame, reference);
-  const auto own = shared_baseline(columns.seen(model), Equation::torsion, model.torsion_shape);
+  Frame seen = columns.seen(model);
+  seen.torque_lag = 0.0;
+  const auto own = shared_baseline(seen, Equation::torsion, model.torsion_shape);
   const Eigen::VectorXd& b = model.own[e];
   reference.elastic = (own->columns.leftCols(own->elastic) * b.head(own->elastic)).array();
   reference.dissipative = (own->columns.middleCols(own->elastic, own->dissipative) *
                            b.segment(own->elastic, own->dissipative))
                               .array();
+  reference.friction = reference.dissipative;
+  for (std::size_t i = 0; i < model.causes.size(); ++i) {
+    if (model.causes[i].form->friction) reference.friction += unfiltered(seen, reference, model, i);
+  }
   return reference;
 }
 

@@ -5,6 +5,8 @@
 namespace flexspline::studies {
 namespace {
 
+using Eigen::ArrayXd;
+
 constexpr std::size_t kMostBuilt = 12;  // of a fit: a few causes, before and after a difference
 
 std::span<const double> shape_of(const DriveModel& model, Equation equation) {
@@ -50,9 +52,10 @@ std::shared_ptr<const Columns> ModelColumns::columns_of(const Frame& seen, const
     return built_.front().columns;
   }
   if (built_.size() == kMostBuilt) built_.pop_back();
-  auto columns =
-      std::make_shared<const Columns>(cause.form->columns(equation, seen, reference_, cause.shape));
-  built_.push_front({cause.form, equation, cause.shape, std::move(columns)});
+  Columns columns = cause.form->columns(equation, seen, reference_, cause.shape);
+  for (ArrayXd& column : columns) column = seen.recorded(column);
+  built_.push_front({cause.form, equation, cause.shape,
+                     std::make_shared<const Columns>(std::move(columns))});
   return built_.front().columns;
 }
 

@@ -6,6 +6,7 @@
 
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/needless.hpp"
+#include "diagnosis/plain_form.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -151,6 +152,8 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   if (!found) return tl::unexpected(found.error());
   const auto cleared = take_out_needless(frame, limits, s);
   if (!cleared) return tl::unexpected(cleared.error());
+  const auto plain = take_plain_forms(frame, limits, s);
+  if (!plain) return tl::unexpected(plain.error());
   put_immaterial_first(s);
   const auto based = fit_baseline_again(frame, s);
   if (!based) return tl::unexpected(based.error());

@@ -39,8 +39,8 @@ Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape)
   Sum sum;
   sum.add(static_cast<double>(equation) + (frame.travels ? 16.0 : 0.0));
   sum.add(static_cast<double>(frame.rig));
-  for (const double value :
-       {frame.torsion_range, frame.rate_range, frame.slow_rate, frame.speed_range}) {
+  for (const double value : {frame.torsion_range, frame.rate_range, frame.slow_rate,
+                             frame.speed_range, frame.torque_lag}) {
     sum.add(value);
   }
   for (const double value : shape) sum.add(value);

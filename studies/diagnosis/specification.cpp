@@ -24,6 +24,7 @@ Frame seen_by_the_laws(Frame frame, const DriveModel& model) {
     if (cause.form->transform != nullptr) cause.form->transform(frame, cause.shape);
   }
   frame.measure_torsion();
+  frame.torque_lag = 0.0;
   return frame;
 }
 
@@ -65,6 +66,7 @@ class Specifier {
         model_(model),
         seen_(seen_by_the_laws(frame, model)),
         reference_(reference_of(frame, model)) {
+    slipping_ = (reference_.friction - reference_.dissipative).abs().maxCoeff();
     if (frame.has(Equation::motor)) sign_ = sign_parts(seen_, reference_.motor_sign);
   }
 
@@ -96,7 +98,7 @@ class Specifier {
       return;
     }
     Counterpart counterpart = form.counterpart(
-        {seen_, cause.shape, coefficients, sign_, reference_.torsion_coulomb_rate});
+        {seen_, cause.shape, coefficients, sign_, reference_.torsion_coulomb_rate, slipping_});
     for (const EffectSpec& effect : counterpart.effects) {
       const std::string why = out_of_range(effect);
       if (why.empty()) continue;
@@ -183,6 +185,7 @@ class Specifier {
   const DriveModel& model_;
   Frame seen_;
   Reference reference_;
+  double slipping_ = 0.0;
   std::vector<SignPart> sign_;
   ModelSpec spec_;
   std::vector<std::string> notes_;

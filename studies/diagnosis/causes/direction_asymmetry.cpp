@@ -13,7 +13,7 @@ Columns at_motor(Equation, const Frame& f, const Reference& known, Values) {
 }
 
 Columns across(Equation, const Frame& f, const Reference& known, Values) {
-  return {known.dissipative.abs(), f.torsion_rate.abs() / f.rate_range};
+  return {known.friction.abs(), f.torsion_rate.abs() / f.rate_range};
 }
 
 // The square of a sign that saturates over several widths is that over the widest's only nearly.
@@ -32,12 +32,19 @@ Counterpart motor_halves(const FittedCause& c) {
 }
 
 Counterpart gear_halves(const FittedCause& c) {
-  return {.effects = {{"direction_asymmetry",
-                       {{"coulomb_difference", 0.0},
-                        {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
-                        {"smoothing", 1e-6 * c.frame.rate_range}}}},
-          .side_difference = c.coefficients[0],
-          .caveat = speed_caveat(c.frame)};
+  Counterpart counterpart{
+      .effects = {{"direction_asymmetry",
+                   {{"coulomb_difference", c.coefficients[0] * c.slipping},
+                    {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
+                    {"smoothing",
+                     c.slipping > 0.0 ? c.torsion_coulomb_rate : 1e-6 * c.frame.rate_range}}}},
+      .side_difference = c.coefficients[0],
+      .caveat = speed_caveat(c.frame)};
+  if (c.slipping > 0.0) {
+    counterpart.caveat =
+        "the difference of what slips builds up with the way, in the model file with the speed";
+  }
+  return counterpart;
 }
 
 }  // namespace
@@ -50,7 +57,7 @@ CauseRow describe_direction_asymmetry() {
                      .at = {Equation::motor},
                      .columns = at_motor,
                      .counterpart = motor_halves},
-                    {.equation = "tau += d |g^-1(phi'/h)| + b |phi'|",
+                    {.equation = "tau += d |tau_friction| + b |phi'|",
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
                      .columns = across,

@@ -10,6 +10,18 @@ Columns of_torsion(Equation, const Frame& f, const Reference&, Values) {
   return {f.torsion_acceleration};
 }
 
+std::vector<Shape> lag(const Frame& f) {
+  return {{.name = "time_constant",
+           .unit = "s",
+           .lower = 0.02 / fastest(f),
+           .upper = 4.0 / fastest(f)}};
+}
+
+// An inertia that a damped joint carries along.
+Columns following(Equation, const Frame& f, const Reference&, Values shape) {
+  return {f.filtered(f.torsion_acceleration, shape[0])};
+}
+
 Columns of_load(Equation, const Frame& f, const Reference&, Values) {
   return {f.load_acceleration};
 }
@@ -28,6 +40,9 @@ Counterpart as_inertia(const FittedCause& c) {
 
 constexpr std::string_view kConstant = "a rig's inertias are its constants, not effects of a model";
 
+constexpr std::string_view kFollows =
+    "the catalogue of effects has no inertia that follows the motion late";
+
 constexpr std::string_view kNotOfLoad =
     "the catalogue of effects has an inertia before the sensor only where the torsion moves it";
 
@@ -42,6 +57,15 @@ CauseRow describe_inertia_torque() {
                      .columns = of_torsion,
                      .nonnegative = true,
                      .counterpart = as_inertia},
+                    {.equation = "tau_measured = tau + J q_l'', T q_l' + q_l = q",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = lag,
+                     .columns = following,
+                     .nonnegative = true,
+                     .extends = true,
+                     .where = travels,
+                     .no_counterpart = kFollows},
                     {.equation = "tau_measured = tau + J theta_l''",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},

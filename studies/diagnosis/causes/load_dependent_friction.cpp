@@ -49,6 +49,7 @@ CauseRow describe_load_dependent_friction() {
                      .at = {Equation::torsion},
                      .columns = across,
                      .nonnegative = true,
+                     .friction = true,
                      .counterpart = gear_friction}}};
 }
 

@@ -76,6 +76,7 @@ CauseRow describe_presliding_hysteresis() {
                      .at = {Equation::torsion},
                      .columns = across,
                      .nonnegative = true,
+                     .friction = true,
                      .counterpart = in_the_gear},
                     {.equation = "tau_f += sum_i k_i s_i, s_i' = theta_m' unless |s_i| = r_i",
                      .rigs = kMotors,

@@ -35,6 +35,24 @@ void travel_of_then(Frame& f, Values shape) {
   }
 }
 
+// A filter of first order behind a delay.
+std::vector<Shape> delay_and_lag(const Frame& f) {
+  auto shapes = long_delay(f);
+  shapes.push_back({.name = "time_constant",
+                    .unit = "s",
+                    .lower = 0.0,
+                    .upper = 4.0 / fastest(f),
+                    .logarithmic = false});
+  return shapes;
+}
+
+std::vector<double> small_both(const Frame& f) { return {0.01 / fastest(f), 0.1 / fastest(f)}; }
+
+void behind_a_filter(Frame& f, Values shape) {
+  travel_of_then(f, shape);
+  f.torque_lag = shape[1];
+}
+
 // The smooth part as it is d later, with the noise of the sample itself.
 void torque_of_now(Frame& f, Values shape) {
   f.torque += later(f, f.smooth_torque, shape[0]) - f.smooth_torque;
@@ -44,6 +62,11 @@ void motor_torque_late(Frame& f, Values shape) { f.motor_torque += shape[0] * f.
 
 Counterpart torque_late(const FittedCause& c) {
   return {.effects = {{"sensor_delay", {{"delay", c.shape[0]}}}}};
+}
+
+Counterpart torque_late_and_filtered(const FittedCause& c) {
+  return {.effects = {{"sensor_delay", {{"delay", c.shape[0]}}},
+                      {"torque_sensor_lag", {{"time_constant", c.shape[1]}}}}};
 }
 
 constexpr std::string_view kNotAtMotor =
@@ -70,6 +93,15 @@ CauseRow describe_sensor_delay() {
                      .start = small,
                      .where = travels,
                      .counterpart = torque_late},
+                    {.equation = "T tau_measured' + tau_measured = tau(t - d)",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = delay_and_lag,
+                     .transform = behind_a_filter,
+                     .start = small_both,
+                     .extends = true,
+                     .where = travels,
+                     .counterpart = torque_late_and_filtered},
                     {.equation = "tau_measured(t) = tau(t - d)",
                      .rigs = kDrives,
                      .at = {Equation::torsion, Equation::load, Equation::motor},

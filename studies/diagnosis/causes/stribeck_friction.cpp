@@ -53,6 +53,7 @@ CauseForm form(std::string_view equation, Equation at, decltype(CauseForm::colum
           .shapes = motor ? motor_speed : rate,
           .columns = columns,
           .nonnegative = true,
+          .friction = !motor,
           .counterpart = motor ? motor_peak : gear_peak};
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "diagnosis/search.hpp"
+
+namespace flexspline::studies {
+
+/// A ripple over the motor's angle in what is left of a joint's steady strokes.
+struct Ripple {
+  double order = 0.0;      ///< a turn of the motor
+  double statistic = 0.0;  ///< as that of a coordinate, of fast changes alone
+  double share = 0.0;      ///< of those, in the mean over rows
+  double amplitude = 0.0;  ///< the largest of a recording and direction, Nm
+  std::size_t segment = 0;
+};
+
+/// The strongest ripple of an angle that travels. Only the residual about a running parabola of 51
+/// samples is looked at, and of it what lies within four of its typical size (1.48 times the
+/// median): reversals, which may leave hundred times as much, have no say. Amplitude and phase are
+/// those of each recording and direction: what winds the joint up passes it differently at every
+/// speed. A line of its
+/// own in the spectrum. Orders from two periods in the window to 2.5 samples a period. None on
+/// other rigs.
+std::optional<Ripple> ripple_left(const Frame& frame, const Findings& findings);
+
+}  // namespace flexspline::studies

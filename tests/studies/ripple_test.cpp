@@ -1,0 +1,108 @@
+// A ripple over the motor's angle, found in what a joint's reversals leave alone.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/ripple.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr double kRatio = 160.0;
+
+/// Two joint recordings of 0.1 and 0.2 rad/s to and fro over 1.2 rad, and a residual of white noise
+/// with bursts that many times as large at the reversals.
+struct Joint {
+  Frame frame;
+  Findings findings;
+
+  explicit Joint(double noise, double reversals = 100.0) {
+    constexpr Index rows = 6000;
+    Frame& f = frame;
+    f.rig = Rig::specimen;
+    f.travels = true;
+    f.ratio = kRatio;
+    f.equations = {Equation::torsion};
+    f.interval = 0.02;
+    f.time = ArrayXd(2 * rows);
+    f.torsion = f.torsion_rate = f.time;
+    ArrayXd left(2 * rows);
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    for (Index s = 0; s < 2; ++s) {
+      const double speed = 0.1 * static_cast<double>(s + 1);
+      for (Index i = 0; i < rows; ++i) {
+        const Index r = s * rows + i;
+        const double t = f.interval * static_cast<double>(i);
+        const double stroke = 1.2 / speed;
+        const double phase = std::fmod(t, 2.0 * stroke);
+        const bool back = phase >= stroke;
+        f.time[r] = t;
+        f.torsion[r] = speed * (back ? 2.0 * stroke - phase : phase);
+        f.torsion_rate[r] = back ? -speed : speed;
+        const bool turning = std::fmod(phase + 0.4, stroke) < 0.8;
+        left[r] = noise * normal(random) * (turning ? reversals : 1.0);
+      }
+      f.segments.push_back({s == 0 ? "slow" : "fast", s * rows, rows});
+    }
+    f.motor_angle = kRatio * f.torsion;
+    f.motor_speed = kRatio * f.torsion_rate;
+    f.usable = ArrayXd::Ones(2 * rows);
+    findings.fit.residual[index_of(Equation::torsion)] = left;
+  }
+
+  ArrayXd& residual() { return findings.fit.residual[index_of(Equation::torsion)]; }
+  std::optional<Ripple> ripple() const { return ripple_left(frame, findings); }
+};
+
+TEST(RippleLeft, IsFoundBesideReversalsThatLeaveMore) {
+  Joint joint(0.02);
+  joint.residual() += 0.03 * (2.0 * joint.frame.motor_angle + 0.4).sin();
+  const auto ripple = joint.ripple();
+  ASSERT_TRUE(ripple);
+  EXPECT_NEAR(ripple->order, 2.0, 0.02) << "one over the turns of the travel is 0.03";
+  EXPECT_NEAR(ripple->amplitude, 0.03, 0.002);
+}
+
+// A sine's power over that and the noise's.
+TEST(RippleLeft, HasTheShareOfASine) {
+  Joint joint(0.02, 1.0);
+  joint.residual() += 0.03 * (2.0 * joint.frame.motor_angle + 0.4).sin();
+  const auto ripple = joint.ripple();
+  ASSERT_TRUE(ripple);
+  EXPECT_NEAR(ripple->share, 0.5 * 9.0 / (0.5 * 9.0 + 4.0), 0.03);
+}
+
+TEST(RippleLeft, MayHaveAnotherPhaseEachWay) {
+  Joint joint(0.02);
+  const ArrayXd way = joint.frame.motor_speed.sign();
+  joint.residual() += 0.03 * (2.0 * joint.frame.motor_angle + 1.2 * way).sin();
+  const auto ripple = joint.ripple();
+  ASSERT_TRUE(ripple);
+  EXPECT_NEAR(ripple->order, 2.0, 0.02);
+}
+
+TEST(RippleLeft, IsNoneInNoise) {
+  const auto ripple = Joint(0.02).ripple();
+  EXPECT_LT(ripple ? ripple->statistic : 0.0, 20.0);
+}
+
+TEST(RippleLeft, IsNoneInWhatChangesSlowlyAlongTheTravel) {
+  Joint joint(0.001);
+  joint.residual() += 0.5 * (3.0 * joint.frame.torsion).sin();
+  const auto ripple = joint.ripple();
+  EXPECT_LT(ripple ? ripple->statistic : 0.0, 20.0);
+}
+
+TEST(RippleLeft, IsForAnglesThatTravel) {
+  Joint joint(0.02);
+  joint.frame.travels = false;
+  EXPECT_FALSE(joint.ripple());
+}
+
+}  // namespace
+}  // namespace flexspline::studies
