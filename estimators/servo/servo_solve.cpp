@@ -13,7 +13,7 @@ constexpr long kMostSteps = 20000;    // of one recording's simulation; some tho
 constexpr double kSpread = 2.0;       // factor within which other starts are drawn
 constexpr double kDriveSpread = 1.3;  // the same of the drive's constants, which have an estimate
 constexpr double kSameCost = 1e-3;    // relative: the tolerance of a fit's end, with room
-constexpr double kCoarser = 100.0;    // tolerance of a search: costs are compared, no more
+constexpr double kCoarser = 10.0;     // tolerance of a search: costs are compared, no more
 
 OdeFitSettings how_to_fit(const ServoSettings& settings) {
   OdeFitSettings how{.integration_tolerance = settings.tolerance,
