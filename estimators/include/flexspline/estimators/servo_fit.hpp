@@ -45,7 +45,7 @@ struct ServoSettings {
   ServoZero zero = ServoZero::recorded;
   int starts = 1;    ///< fits from as many starts, drawn within a factor of 2 about the usual one;
                      ///< the best counts as converged where two end there
-  int searches = 0;  ///< without derivatives (search_ode, 1500 simulations each, at 100 times the
+  int searches = 0;  ///< without derivatives (search_ode, 1500 simulations each, at ten times the
                      ///< tolerance), from whose best the fit starts, instead of several starts; it
                      ///< counts as converged where two searches end there
   std::uint64_t seed = 1;                 ///< of those starts or searches
