@@ -199,6 +199,26 @@ TEST(TorqueSensorLag, IsTheFirstOrderLowPassOfASine) {
   }
 }
 
+// An inertia behind a dashpot, T w' = phi' - w, along phi = cos(omega t), at rest at first.
+TEST(CarriedInertia, FollowsASineBehindItsDashpot) {
+  const double inertia = 1.6;
+  const double lag = 0.08;
+  const double omega = 2.0 * std::numbers::pi;
+  const auto motion = harmonic_motion({1.0}, 4000, 4);
+  const auto row = find_effect("carried_inertia");
+  ASSERT_TRUE(row);
+  std::vector<double> torque(motion.time.size(), 0.0);
+  ASSERT_TRUE(apply_along(**row,
+                          {"carried_inertia", {{"inertia", inertia}, {"time_constant", lag}}},
+                          instants_of(motion), torque));
+  const double most = inertia * omega * omega / (1.0 + std::pow(omega * lag, 2));
+  for (std::size_t i = 0; i < torque.size(); ++i) {
+    const double t = motion.time[i];
+    const double wave = std::cos(omega * t) + omega * lag * std::sin(omega * t);
+    EXPECT_NEAR(torque[i], -most * (wave - std::exp(-t / lag)), 1e-5 * most);
+  }
+}
+
 TEST(TorqueSensorLag, FollowsARampAtItsTimeConstantOverAnySteps) {
   const std::vector<double> time = {0.0, 0.01, 0.5, 0.52, 3.0};
   std::vector<double> shown;

@@ -38,10 +38,12 @@ Counterpart as_inertia(const FittedCause& c) {
   return {.effects = {{"inertia_torque", {{"inertia", c.coefficients[0]}}}}};
 }
 
-constexpr std::string_view kConstant = "a rig's inertias are its constants, not effects of a model";
+Counterpart as_carried(const FittedCause& c) {
+  return {.effects = {{"carried_inertia",
+                       {{"inertia", c.coefficients[0]}, {"time_constant", c.shape[0]}}}}};
+}
 
-constexpr std::string_view kFollows =
-    "the catalogue of effects has no inertia that follows the motion late";
+constexpr std::string_view kConstant = "a rig's inertias are its constants, not effects of a model";
 
 constexpr std::string_view kNotOfLoad =
     "the catalogue of effects has an inertia before the sensor only where the torsion moves it";
@@ -65,7 +67,7 @@ CauseRow describe_inertia_torque() {
                      .nonnegative = true,
                      .extends = true,
                      .where = travels,
-                     .no_counterpart = kFollows},
+                     .counterpart = as_carried},
                     {.equation = "tau_measured = tau + J theta_l''",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
