@@ -22,17 +22,18 @@ ArrayXd scaled(const ArrayXd& x) {
   return most > 0.0 ? ArrayXd(x / most) : x;
 }
 
-/// What an error in the form of a contribution may look like; a constant has no form to err in.
+/// What an error in the form of a contribution may look like; a constant has no form to err in. The
+/// same for both directions and both sides: what differs between them is a cause of its own.
 Columns form_errors(const Frame& frame, const ArrayXd& c) {
   constexpr double kConstant = 1e-3;
   if (c.maxCoeff() - c.minCoeff() < kConstant * c.abs().maxCoeff()) return {};
-  const ArrayXd torsion = scaled(frame.torsion);
-  const ArrayXd rate = scaled(frame.torsion_rate);
-  const ArrayXd torque = scaled(frame.torque);
   const ArrayXd clock = scaled(frame.clock);
-  return {c * torsion,      c * torsion.square(), c * rate,
-          c * rate.abs(),   c * torque,           c * torque.square(),
-          c * clock,        c * clock.square(),   c * scaled(c).square(),
+  return {c * scaled(frame.torsion).square(),
+          c * scaled(frame.torsion_rate).abs(),
+          c * scaled(frame.torque).square(),
+          c * scaled(c).square(),
+          c * clock,
+          c * clock.square(),
           rate_of(frame, c)};
 }
 

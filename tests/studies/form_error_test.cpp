@@ -12,7 +12,8 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 ArrayXd wave_of(const Frame& f) { return (40.0 * f.clock / f.session).sin(); }
-ArrayXd bent(const Frame& f) { return wave_of(f) * f.torsion / f.torsion_range; }
+ArrayXd bent(const Frame& f) { return wave_of(f) * (f.torsion / f.torsion_range).square(); }
+ArrayXd one_sided(const Frame& f) { return wave_of(f) * f.torsion / f.torsion_range; }
 ArrayXd another(const Frame& f) { return (211.0 * f.clock / f.session).sin(); }
 
 template <ArrayXd (*Signal)(const Frame&)>
@@ -44,6 +45,10 @@ double share_of(const CauseForm& small, ArrayXd (*signal)(const Frame&)) {
 
 TEST(FormError, TakesWhatIsAModulationOfTheLargerCause) {
   EXPECT_LT(share_of(form<bent>(), bent), 1e-6);
+}
+
+TEST(FormError, LeavesADifferenceOfTheSides) {
+  EXPECT_GT(share_of(form<one_sided>(), one_sided), 0.8);
 }
 
 TEST(FormError, LeavesASignalOfItsOwn) { EXPECT_GT(share_of(form<another>(), another), 0.8); }

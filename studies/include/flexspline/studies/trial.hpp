@@ -88,7 +88,8 @@ CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis);
 /// that shows most of it.
 struct EffectTrace {
   std::string effect;
-  double share = kNotComputed;  ///< largest trace over the largest torque of the equation
+  /// 99th percentile of the trace over the largest torque of the equation.
+  double share = kNotComputed;
   double sigma = kNotComputed;  ///< root of its chi square: how far it stands out of the noise
 };
 
