@@ -152,4 +152,11 @@ Result<OdeSearch> search_ode(std::span<const OdeFitProblem> copies, const OdeFit
   return result;
 }
 
+Result<double> ode_cost(const OdeFitProblem& problem, const OdeFitSettings& settings,
+                        std::span<const double> unknowns) {
+  const OdeLayout layout = lay_out(problem, settings);
+  const ShootingProblem shots(layout, settings.integration_tolerance, 1);
+  return WeightedShooting(layout, shots).data_cost(unknowns);
+}
+
 }  // namespace flexspline::estimators

@@ -71,6 +71,16 @@ TEST(OdeSearch, StaysWithinTheSpreadOfItsOwnAtFirst) {
   EXPECT_LT(found->best.front(), 4.0) << "six starts within a percent of 2 end in its valley";
 }
 
+TEST(OdeSearch, CostsWhatTheFitSays) {
+  const auto problem = oscillation(4.9);
+  const auto fit = fit_ode(problem, OdeFitMethod::single_shooting, {.max_iterations = 1});
+  ASSERT_TRUE(fit);
+  const double at[] = {fit->parameters.front().value};
+  EXPECT_NEAR(*ode_cost(problem, {}, at), fit->cost, 1e-6 * fit->cost);
+  const double off[] = {3.0};
+  EXPECT_GT(*ode_cost(problem, {}, off), 2.0 * fit->cost);
+}
+
 TEST(OdeSearch, RefusesSettingsWithoutMeaning) {
   const auto none = search_ode(std::vector{oscillation(3.0)}, {}, {.searches = 0});
   ASSERT_FALSE(none);

@@ -41,4 +41,9 @@ struct OdeSearch {
 Result<OdeSearch> search_ode(std::span<const OdeFitProblem> copies, const OdeFitSettings& settings,
                              const OdeSearchSettings& search = {});
 
+/// The cost of single shooting at unknowns (the system's parameters, then free initial values),
+/// simulated without derivatives. Errors: those of the integration.
+Result<double> ode_cost(const OdeFitProblem& problem, const OdeFitSettings& settings,
+                        std::span<const double> unknowns);
+
 }  // namespace flexspline::estimators
