@@ -79,7 +79,8 @@ double worst_misfit(const Frame& frame, const Findings& findings) {
 }
 
 bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits) {
-  if (s.accepted.size() > limits.causes) return false;
+  const bool remains = !s.after.empty() && is_left(s.after.front(), limits);
+  if (s.accepted.size() > limits.causes - (remains ? 1 : 0)) return false;
   const Balance b = balance_of(frame, s);
   const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
   if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;

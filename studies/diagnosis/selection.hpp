@@ -29,7 +29,8 @@ struct Limits {
   double misfit = 1.5;            ///< mean square over noise that counts as explained
   double unproved = 0.25;  ///< share of the misfit that an unproved cause cannot take quietly
   double held_out = 1.0;   ///< error on recordings held out with a cause over without it
-  std::size_t causes = 4;  ///< more together are a stand-in for something without a name
+  std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in
+                           ///< for something without a name
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has
 };
