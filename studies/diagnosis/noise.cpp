@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/middle.hpp"
 #include "diagnosis/running_parabola.hpp"
 
 namespace flexspline::studies {
@@ -28,12 +29,6 @@ std::vector<ArrayXd> fast_part(const Frame& frame, const ArrayXd& residual, Inde
     parts.push_back(Eigen::Map<ArrayXd>(part.data(), static_cast<Index>(part.size())));
   }
   return parts;
-}
-
-double middle(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-  return values[values.size() / 2];
 }
 
 }  // namespace

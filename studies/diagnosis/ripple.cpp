@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "diagnosis/middle.hpp"
 #include "diagnosis/running_parabola.hpp"
 
 namespace flexspline::studies {
@@ -33,11 +34,6 @@ struct Strokes {
   double lowest = 0.0, highest = 0.0;  ///< orders that the rows can tell
   double sum_of_squares = 0.0;
 };
-
-double middle(std::vector<double> values) {
-  std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
-  return values[values.size() / 2];
-}
 
 Strokes strokes_of(const Frame& frame, const ArrayXd& residual, std::size_t segment, double way) {
   const ArrayXd weights = parabola_weights(kHalfWindow);
