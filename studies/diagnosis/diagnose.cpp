@@ -73,8 +73,8 @@ void say_ripple(const Frame& frame, const Selection& s, const Limits& limits, Di
   const auto behind_causes = std::min(d.mismatch.size(), s.accepted.size());
   d.mismatch.insert(d.mismatch.begin() + static_cast<std::ptrdiff_t>(behind_causes),
                     {.recording = segment.id,
-                     .from_s = frame.time[segment.first],
-                     .to_s = frame.time[segment.first + segment.count - 1],
+                     .from_s = ripple->from_s,
+                     .to_s = ripple->to_s,
                      .coordinate = "motor_angle",
                      .equation = std::string(name_of(Equation::torsion)),
                      .says = says});

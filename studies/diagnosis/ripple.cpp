@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/middle.hpp"
@@ -33,12 +35,16 @@ struct Strokes {
   ArrayXd angle, fast;
   double lowest = 0.0, highest = 0.0;  ///< orders that the rows can tell
   double sum_of_squares = 0.0;
+  Index first = 0, last = 0;  ///< rows of the longest stroke
 };
 
 Strokes strokes_of(const Frame& frame, const ArrayXd& residual, std::size_t segment, double way) {
   const ArrayXd weights = parabola_weights(kHalfWindow);
   const Segment& s = frame.segments[segment];
   std::vector<double> angle, fast, size, speed;
+  Index begin = s.first;  // of the stroke, its last row so far, and the longest one
+  Index end = begin;
+  std::pair<Index, Index> longest{begin, begin};
   for (Index r = s.first + kHalfWindow; r + kHalfWindow < s.first + s.count; ++r) {
     const auto window = Eigen::seqN(r - kHalfWindow, 2 * kHalfWindow + 1);
     if (frame.usable(window).minCoeff() == 0.0) continue;
@@ -47,6 +53,9 @@ Strokes strokes_of(const Frame& frame, const ArrayXd& residual, std::size_t segm
     fast.push_back(residual[r] - (weights * residual(window)).sum());
     size.push_back(std::abs(fast.back()));
     speed.push_back(std::abs(frame.motor_speed[r]));
+    if (r != end + 1) begin = r;
+    end = r;
+    if (end - begin > longest.second - longest.first) longest = {begin, end};
   }
   if (fast.size() < kFewest) return {};
   const double most = kQuiet * kTypicalOfMedian * middle(size);
@@ -63,6 +72,7 @@ Strokes strokes_of(const Frame& frame, const ArrayXd& residual, std::size_t segm
   strokes.angle = Eigen::Map<ArrayXd>(angle.data(), static_cast<Index>(angle.size()))(rows);
   strokes.fast = Eigen::Map<ArrayXd>(fast.data(), static_cast<Index>(fast.size()))(rows);
   strokes.sum_of_squares = strokes.fast.square().sum();
+  std::tie(strokes.first, strokes.last) = longest;
   return strokes;
 }
 
@@ -80,8 +90,8 @@ std::vector<Strokes> all_strokes(const Frame& frame, const ArrayXd& residual) {
 /// Fourier sums of all strokes at evenly spaced orders, from one to the next by a rotation.
 class Spectrum {
  public:
-  Spectrum(const std::vector<Strokes>& strokes, double first, double step)
-      : strokes_(strokes), order_(first), step_(step) {
+  Spectrum(const Frame& frame, const std::vector<Strokes>& strokes, double first, double step)
+      : frame_(frame), strokes_(strokes), order_(first), step_(step) {
     const std::complex<double> i(0.0, 1.0);
     for (const Strokes& one : strokes) {
       wave_.push_back((-i * first * one.angle.cast<std::complex<double>>()).exp());
@@ -102,6 +112,7 @@ class Spectrum {
 
   Ripple ripple(double colour) const {
     Ripple r{.order = order_};
+    const Strokes* strongest = nullptr;
     double taken = 0.0;
     double all = 0.0;
     for (std::size_t k = 0; k < strokes_.size(); ++k) {
@@ -113,13 +124,18 @@ class Spectrum {
       const double share = std::min(0.5 * rows * a * a / one.sum_of_squares, 1.0 - 1e-12);
       taken += rows * share;
       r.statistic -= rows / colour * std::log1p(-share) + 2.0 * std::log(rows);
-      if (a > r.amplitude) r.amplitude = a, r.segment = one.segment;
+      if (a > r.amplitude) r.amplitude = a, strongest = &one;
     }
     r.share = taken / all;
+    if (strongest == nullptr) return r;
+    r.segment = strongest->segment;
+    r.from_s = frame_.time[strongest->first];
+    r.to_s = frame_.time[strongest->last];
     return r;
   }
 
  private:
+  const Frame& frame_;
   const std::vector<Strokes>& strokes_;
   double order_, step_;
   std::vector<ArrayXcd> wave_, turn_;
@@ -151,7 +167,8 @@ std::optional<Ripple> ripple_left(const Frame& frame, const Findings& findings) 
   const double last =
       std::min(kHighestOrder, std::ranges::max(strokes, {}, &Strokes::highest).highest);
   std::vector<Ripple> orders;
-  for (Spectrum spectrum(strokes, first, step); spectrum.order() <= last; spectrum.advance()) {
+  for (Spectrum spectrum(frame, strokes, first, step); spectrum.order() <= last;
+       spectrum.advance()) {
     orders.push_back(spectrum.ripple(findings.noise[e].colour));
   }
   const auto best = std::ranges::max_element(orders, {}, &Ripple::statistic);

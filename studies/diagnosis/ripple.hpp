@@ -14,6 +14,8 @@ struct Ripple {
   double share = 0.0;      ///< of those, in the mean over rows
   double amplitude = 0.0;  ///< the largest of a recording and direction, Nm
   std::size_t segment = 0;
+  double from_s = 0.0;  ///< the longest stroke of that recording and direction
+  double to_s = 0.0;
 };
 
 /// The strongest ripple of an angle that travels. Only the residual about a running parabola of 51

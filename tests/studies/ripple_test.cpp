@@ -66,6 +66,8 @@ TEST(RippleLeft, IsFoundBesideReversalsThatLeaveMore) {
   ASSERT_TRUE(ripple);
   EXPECT_NEAR(ripple->order, 2.0, 0.02) << "one over the turns of the travel is 0.03";
   EXPECT_NEAR(ripple->amplitude, 0.03, 0.002);
+  const double stroke = ripple->segment == 0 ? 12.0 : 6.0;
+  EXPECT_NEAR(ripple->to_s - ripple->from_s, stroke, 1.2) << "one stroke, less a window";
 }
 
 // A sine's power over that and the noise's.
