@@ -319,10 +319,8 @@ ArrayXd Frame::filtered(const ArrayXd& signal, double time_constant) const {
   if (!(time_constant > 0.0)) return signal;
   ArrayXd y(signal.size());
   for (const Segment& s : segments) {
-    Index start = s.first;
-    while (start + 1 < s.first + s.count && usable[start] == 0.0) ++start;
-    y.segment(s.first, start - s.first + 1).setConstant(signal[start]);
-    for (Index r = start + 1; r < s.first + s.count; ++r) {
+    y[s.first] = signal[s.first];
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
       const double step = (time[r] - time[r - 1]) / time_constant;
       const double kept = std::exp(-step);
       const double slope = (signal[r] - signal[r - 1]) / step;

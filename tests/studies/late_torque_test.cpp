@@ -142,7 +142,6 @@ TEST(LateTorque, OfASineIsThatOfAFirstOrderFilter) {
   Frame f;
   f.time = ArrayXd::LinSpaced(rows, 0.0, 0.002 * (rows - 1));
   f.segments = {{"one", 0, rows / 2}, {"two", rows / 2, rows / 2}};
-  f.usable = ArrayXd::Ones(rows);
   const double w = 12.0;
   const ArrayXd signal = (w * f.time).sin();
   EXPECT_TRUE((f.recorded(signal) == signal).all()) << "no filter";
@@ -155,17 +154,6 @@ TEST(LateTorque, OfASineIsThatOfAFirstOrderFilter) {
     const auto late = Eigen::seqN(s.first + 600, s.count - 600);
     EXPECT_LT((recorded(late) - settled(late)).abs().maxCoeff(), w * w * 0.002 * 0.002 / 8.0);
   }
-}
-
-TEST(LateTorque, StartsSettledWhereARecordingIsUsable) {
-  Frame f;
-  f.time = ArrayXd::LinSpaced(100, 0.0, 0.99);
-  f.segments = {{"one", 0, 100}};
-  f.usable = ArrayXd::Ones(100);
-  f.usable.head(4).setZero();
-  ArrayXd signal = ArrayXd::Ones(100);
-  signal[0] = 1e6;
-  EXPECT_LT((f.filtered(signal, 0.3) - 1.0).abs().maxCoeff(), 1e-12) << "a loose end has no say";
 }
 
 }  // namespace
