@@ -20,7 +20,7 @@ std::string meaning_of(const std::string& verdict) {
            "the catalogue explains.";
   }
   if (verdict == "unexplained") {
-    return "Unexplained: something was left out that no effect of the catalogue explains.";
+    return "Unexplained: something was left out to which no effect of the catalogue can give a name.";
   }
   return "The verdict is not one of flexspline-diagnosis/1: " + verdict;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/experiment.hpp"
+#include "diagnosis/explanation.hpp"
 #include "diagnosis/prove.hpp"
 #include "diagnosis/ripple.hpp"
 #include "diagnosis/specification.hpp"
@@ -27,8 +28,11 @@ double weighted_level(const Frame& frame, const EquationNoise& noise) {
   return std::sqrt(variance / rows);
 }
 
-Verdict verdict_of(const Selection& s) {
-  if (s.accepted.empty()) return s.remainder ? Verdict::unexplained : Verdict::adequate;
+Verdict verdict_of(const Selection& s, const Limits& limits) {
+  if (s.accepted.empty()) {
+    const bool something = s.remainder || left_unnamed(s, limits) != nullptr;
+    return something ? Verdict::unexplained : Verdict::adequate;
+  }
   return s.remainder ? Verdict::partly_explained : Verdict::explained;
 }
 
@@ -108,7 +112,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   const Equation shown = equation_to_prove(*frame, *selection);
   d.noise_std = weighted_level(*frame, selection->final.noise[index_of(shown)]) *
                 (shown == Equation::motor ? frame->ratio : 1.0);
-  d.verdict = verdict_of(*selection);
+  d.verdict = verdict_of(*selection, limits);
   auto specification = specify(*frame, selection->final.fit.model);
   d.model = std::move(specification.model);
   d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
@@ -121,7 +125,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.moved = spelled_moves(*frame, *selection);
   d.series = spelled_series(*frame, *selection, *proof);
   d.next_experiment = next_experiment(*frame, *selection);
-  d.says = spelled_verdict(d);
+  d.says = spelled_verdict(*selection, limits, d);
   if (one_loop(*frame)) say_undecided(*frame, d);
   return d;
 }

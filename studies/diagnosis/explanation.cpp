@@ -69,6 +69,15 @@ bool is_left(const CoordinateScore& score, const Limits& limits) {
   return score.statistic > limits.remainder && score.share > limits.remainder_share;
 }
 
+const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
+  if (!s.accepted.empty() || s.immaterial.empty()) return nullptr;
+  const auto& most = *std::ranges::max_element(s.immaterial, {},
+                                               [](const Accepted& a) { return a.trial.removed; });
+  const bool seen =
+      most.trial.net_gain >= limits.named_gain && most.trial.removed > limits.remainder_share;
+  return seen ? &most : nullptr;
+}
+
 double worst_misfit(const Frame& frame, const Findings& findings) {
   double worst = 0.0;
   for (Equation equation : frame.equations) {

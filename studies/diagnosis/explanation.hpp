@@ -10,6 +10,11 @@ double misfit_removed(const Frame& frame, const Selection& s);
 /// True where a coordinate orders more of a residual than noise and small errors of form do.
 bool is_left(const CoordinateScore& score, const Limits& limits);
 
+/// Of the causes too small to be named the one that takes most away, if it is worth as much as a
+/// named one and orders as much as a remainder: the baseline alone is then no explanation. Null
+/// where there is none, and beside named causes, whose forms may be what it mends.
+const Accepted* left_unnamed(const Selection& s, const Limits& limits);
+
 /// Largest mean square over noise of an equation.
 double worst_misfit(const Frame& frame, const Findings& findings);
 

@@ -32,7 +32,7 @@ struct Frame {
   double ratio = 1.0;
   double motor_inertia = 0.0;
   double load_inertia = 0.0;
-  bool travels = false;  ///< an angle that travels: f is a free function of it
+  bool travels = false;     ///< an angle that travels: f is a free function of it
   double torque_lag = 0.0;  ///< time constant of the filter behind which the torque is recorded, s
   std::vector<Equation> equations;
   std::vector<std::string> notes;  ///< what could not be judged, and why
@@ -64,8 +64,8 @@ struct Frame {
   /// Largest |torque| that an equation explains, over usable rows: at the motor shaft or across the
   /// transmission.
   double largest_torque(Equation equation) const;
-  /// A signal behind a filter of first order: T y' + y = x, exact for x linear between rows, settled
-  /// at the start of every recording.
+  /// A signal behind a filter of first order: T y' + y = x, exact for x linear between rows,
+  /// settled at the start of every recording.
   Eigen::ArrayXd filtered(const Eigen::ArrayXd& signal, double time_constant) const;
   /// A torque signal as it is recorded, behind torque_lag.
   Eigen::ArrayXd recorded(const Eigen::ArrayXd& signal) const {

@@ -1,5 +1,4 @@
 #include "diagnosis/spelled.hpp"
-#include "diagnosis/folds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <boost/math/special_functions/gamma.hpp>
 
 #include "diagnosis/baseline.hpp"
+#include "diagnosis/explanation.hpp"
+#include "diagnosis/folds.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -18,7 +19,6 @@ using Eigen::Index;
 
 constexpr double kLargestChiSquare = 1200.0;  // beyond it the probability is no number above 0
 constexpr std::size_t kMostAlternatives = 2;
-constexpr std::size_t kMostMismatches = 6;
 constexpr Index kSeriesPoints = 400;
 
 std::vector<std::string> ids_of(const std::vector<Trial>& trials, std::size_t most) {
@@ -59,27 +59,6 @@ std::vector<CauseParameter> parameters_of(const Trial& trial, const Frame& frame
     list.push_back(std::move(p));
   }
   return list;
-}
-
-Mismatch at_worst(const Frame& frame, const Findings& findings, Equation equation) {
-  const WorstWindow w = worst_window(frame, findings, equation);
-  return {.recording = frame.segments[w.segment].id,
-          .from_s = w.from_s,
-          .to_s = w.to_s,
-          .coordinate = {},
-          .equation = std::string(name_of(equation)),
-          .says = {}};
-}
-
-bool listed(const std::vector<Mismatch>& list, std::string_view coordinate) {
-  return std::ranges::any_of(list, [&](const Mismatch& m) { return m.coordinate == coordinate; });
-}
-
-Equation first_equation(const Frame& frame, const CauseForm& form) {
-  for (Equation e : form.at) {
-    if (frame.has(e)) return e;
-  }
-  return form.at.front();
 }
 
 // Weighted change of the prediction by a trial, equation under equation.
@@ -172,33 +151,6 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.evidence.ablation_ratio = 1.0 / proof.cause_ratio[i];
     cause.evidence.placebo_ratio = proof.placebo_ratio[i];
     list.push_back(std::move(cause));
-  }
-  return list;
-}
-
-std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
-                                       const Limits& limits) {
-  std::vector<Mismatch> list;
-  for (const Accepted& a : s.accepted) {
-    if (listed(list, a.trial.cause.row->coordinate)) continue;
-    const Equation equation = first_equation(frame, *a.trial.cause.form);
-    Mismatch m = at_worst(frame, s.baseline, equation);
-    m.coordinate = a.trial.cause.row->coordinate;
-    m.share_of_excess = std::clamp(a.trial.removed, 0.0, 1.0);
-    m.says = fmt::format("the {} equation misses {}: {}", name_of(equation), a.trial.cause.row->id,
-                         a.trial.cause.form->equation);
-    list.push_back(std::move(m));
-  }
-  for (const CoordinateScore& score : s.before) {
-    // Where something is left, the strongest coordinate is told even if it orders little of it.
-    const bool told = score.statistic >= limits.remainder || (list.empty() && s.remainder);
-    if (list.size() >= kMostMismatches || !told) break;
-    if (listed(list, score.coordinate)) continue;
-    Mismatch m = at_worst(frame, s.baseline, score.equation);
-    m.coordinate = score.coordinate;
-    m.share_of_excess = score.share;
-    m.says = score.says;
-    list.push_back(std::move(m));
   }
   return list;
 }
@@ -296,7 +248,7 @@ std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection&
   return list;
 }
 
-std::string spelled_verdict(const Diagnosis& d) {
+std::string spelled_verdict(const Selection& s, const Limits& limits, const Diagnosis& d) {
   std::vector<std::string> names;
   for (const Cause& cause : d.causes) {
     std::string name = cause.effect;
@@ -318,6 +270,10 @@ std::string spelled_verdict(const Diagnosis& d) {
           proof_in_words(d.holdout));
     case Verdict::unexplained:
       break;
+  }
+  if (!s.remainder && left_unnamed(s, limits) != nullptr) {
+    return fmt::format("Something was left out, too little for a name; {}.",
+                       d.mismatch.front().says);
   }
   return d.mismatch.empty()
              ? "Something was left out that no catalogued effect explains."

@@ -20,6 +20,7 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& se
 /// Recordings as measured and as predicted, those held out by fits that did not see them.
 std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& selection,
                                             const Proof& proof);
-std::string spelled_verdict(const Diagnosis& diagnosis);
+std::string spelled_verdict(const Selection& selection, const Limits& limits,
+                            const Diagnosis& diagnosis);
 
 }  // namespace flexspline::studies

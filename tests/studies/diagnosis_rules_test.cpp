@@ -117,6 +117,27 @@ Selection selection_with(CoordinateScore before, CoordinateScore after) {
   return s;
 }
 
+TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
+  const Limits limits;
+  const auto left = [&](double gain, double removed, bool beside_a_cause = false) {
+    Selection s;
+    Accepted small;
+    small.trial = trial_of(0.5 * limits.size, 0.5 * limits.size, false);
+    small.trial.net_gain = gain;
+    small.trial.removed = removed;
+    s.immaterial = {small};
+    if (beside_a_cause) s.accepted = {small};
+    return left_unnamed(s, limits) != nullptr;
+  };
+  const double gain = 2.0 * limits.named_gain;
+  const double removed = 2.0 * limits.remainder_share;
+  EXPECT_TRUE(left(gain, removed));
+  EXPECT_FALSE(left(0.4 * gain, removed)) << "no name would be worth so little";
+  EXPECT_FALSE(left(gain, 0.4 * removed)) << "it orders next to nothing";
+  EXPECT_FALSE(left(gain, removed, true)) << "it may mend the form of what is named";
+  EXPECT_EQ(left_unnamed(Selection{}, limits), nullptr);
+}
+
 TEST(Explanation, ACauseStandsAloneWhereItClearsWhatItsCoordinateOrdered) {
   const Limits limits;
   const CoordinateScore strong{Equation::torsion, "reversal_memory", 10.0 * limits.remainder,

@@ -20,6 +20,17 @@ TEST(Diagnose, SaysNothingWasLeftOutWhereNothingWas) {
   }
 }
 
+TEST(Diagnose, SaysWithoutANameWhatIsTooSmallForOne) {
+  const auto bench = drawn_case(Rig::locked, 202, {{"presliding_hysteresis", 0.006}});
+  const Diagnosis d = diagnosed(bench.recordings);
+  EXPECT_EQ(d.verdict, Verdict::unexplained);
+  EXPECT_TRUE(d.causes.empty());
+  ASSERT_FALSE(d.mismatch.empty());
+  EXPECT_EQ(d.mismatch.front().coordinate, "reversal_memory");
+  EXPECT_NE(d.says.find("too little for a name"), std::string::npos) << d.says;
+  EXPECT_EQ(d.says.find("presliding"), std::string::npos) << d.says;
+}
+
 class DiagnoseVisible : public testing::TestWithParam<Bench> {};
 
 TEST_P(DiagnoseVisible, EffectIsNamedFirstLocatedAndProved) { expect_found(GetParam()); }
