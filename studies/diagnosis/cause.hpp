@@ -49,6 +49,8 @@ struct CauseForm {
   bool friction = false;     ///< resists the motion across the transmission, beside g^-1
   bool extends = false;      ///< the form before it in the row, by its last shape
   bool (*where)(const Frame&) = nullptr;  ///< what the recordings must be like; nullptr: anything
+  /// Whether it ripples this many times a turn of the motor in steady strokes.
+  bool (*ripples)(double order) = nullptr;
   /// What it is in a model file, by the catalogue of effects.
   Counterpart (*counterpart)(const FittedCause&) = nullptr;
   std::string_view no_counterpart = {};  ///< why there is none

@@ -7,7 +7,6 @@
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/prove.hpp"
-#include "diagnosis/ripple.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
 #include "flexspline/studies/diagnosis.hpp"
@@ -57,33 +56,6 @@ void say_undecided(const Frame& frame, Diagnosis& d) {
   d.notes.push_back(d.says);
 }
 
-// A ripple over the motor's angle that no cause took, said whatever its size.
-void say_ripple(const Frame& frame, const Selection& s, const Limits& limits, Diagnosis& d) {
-  const auto ripple = ripple_left(frame, s.final);
-  if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.remainder_share) {
-    return;
-  }
-  const Segment& segment = frame.segments[ripple->segment];
-  const std::string says = fmt::format(
-      "{:.0f} % of the fast changes left in steady strokes follow the motor angle {:.2f} times a "
-      "turn, {:.0f} times one of the output: {:.2g} Nm at most, {:.2g} % of the largest torque",
-      100.0 * ripple->share, ripple->order, ripple->order * frame.ratio, ripple->amplitude,
-      100.0 * ripple->amplitude / frame.torque_range);
-  d.notes.push_back(says + "; it is not part of the model");
-  const bool named = std::ranges::any_of(
-      s.accepted, [](const Accepted& a) { return a.trial.cause.row->coordinate == "motor_angle"; });
-  if (named) return;
-  std::erase_if(d.mismatch, [](const Mismatch& m) { return m.coordinate == "motor_angle"; });
-  const auto behind_causes = std::min(d.mismatch.size(), s.accepted.size());
-  d.mismatch.insert(d.mismatch.begin() + static_cast<std::ptrdiff_t>(behind_causes),
-                    {.recording = segment.id,
-                     .from_s = ripple->from_s,
-                     .to_s = ripple->to_s,
-                     .coordinate = "motor_angle",
-                     .equation = std::string(name_of(Equation::torsion)),
-                     .says = says});
-}
-
 Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgress& progress,
                             unsigned threads) {
   if (progress) progress(0.0, "smoothing the motions");
@@ -119,7 +91,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.holdout = proof->holdout;
   d.causes = spelled_causes(*frame, *selection, *proof);
   d.mismatch = spelled_mismatch(*frame, *selection, limits);
-  say_ripple(*frame, *selection, limits, d);
+  spell_ripple(*frame, *selection, limits, d);
   d.confusable = spelled_confusable(*frame, *selection);
   d.tried = spelled_trials(*selection, limits);
   d.moved = spelled_moves(*frame, *selection);

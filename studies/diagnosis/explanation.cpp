@@ -70,12 +70,14 @@ bool is_left(const CoordinateScore& score, const Limits& limits) {
 }
 
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
-  if (!s.accepted.empty() || s.immaterial.empty()) return nullptr;
-  const auto& most = *std::ranges::max_element(s.immaterial, {},
-                                               [](const Accepted& a) { return a.trial.removed; });
-  const bool seen =
-      most.trial.net_gain >= limits.named_gain && most.trial.removed > limits.remainder_share;
-  return seen ? &most : nullptr;
+  const Accepted* most = nullptr;
+  if (!s.accepted.empty()) return most;
+  for (const Accepted& a : s.immaterial) {
+    const bool seen =
+        a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.remainder_share;
+    if (seen && (most == nullptr || a.trial.removed > most->trial.removed)) most = &a;
+  }
+  return most;
 }
 
 double worst_misfit(const Frame& frame, const Findings& findings) {

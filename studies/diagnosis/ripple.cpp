@@ -141,6 +141,22 @@ class Spectrum {
   std::vector<ArrayXcd> wave_, turn_;
 };
 
+/// Every order that the strokes can tell, in quarters of a period over the whole travel.
+std::vector<Ripple> spectrum_of(const Frame& frame, const std::vector<Strokes>& strokes,
+                                double colour) {
+  std::vector<Ripple> orders;
+  if (strokes.empty()) return orders;
+  const double first = std::ranges::min(strokes, {}, &Strokes::lowest).lowest;
+  const double last =
+      std::min(kHighestOrder, std::ranges::max(strokes, {}, &Strokes::highest).highest);
+  const double step = kStep * resolved_order(frame);
+  for (Spectrum spectrum(frame, strokes, first, step); spectrum.order() <= last;
+       spectrum.advance()) {
+    orders.push_back(spectrum.ripple(colour));
+  }
+  return orders;
+}
+
 // Whether the orders one to four periods of the travel away have less than half of it: what turns
 // with the motor is a line, what changes slowly along the travel is not.
 bool is_line(const std::vector<Ripple>& orders, std::ptrdiff_t at) {
@@ -154,27 +170,65 @@ bool is_line(const std::vector<Ripple>& orders, std::ptrdiff_t at) {
   return half > 0.0;
 }
 
+std::optional<Ripple> strongest_line(const std::vector<Ripple>& orders) {
+  const auto best = std::ranges::max_element(orders, {}, &Ripple::statistic);
+  if (best == orders.end() || !is_line(orders, best - orders.begin())) return std::nullopt;
+  Ripple line = *best;
+  line.statistic -= 2.0 * std::log(static_cast<double>(orders.size()));
+  return line;
+}
+
+// A recording's own line, no further from an order found elsewhere than can be told apart.
+std::optional<Ripple> line_near(const std::vector<Ripple>& orders, double order, double apart) {
+  std::ptrdiff_t best = -1;
+  for (std::ptrdiff_t i = 0; i < std::ssize(orders); ++i) {
+    const Ripple& one = orders[static_cast<std::size_t>(i)];
+    if (std::abs(one.order - order) > apart) continue;
+    if (best < 0 || one.statistic > orders[static_cast<std::size_t>(best)].statistic) best = i;
+  }
+  if (best < 0 || !is_line(orders, best)) return std::nullopt;
+  return orders[static_cast<std::size_t>(best)];
+}
+
 }  // namespace
+
+double resolved_order(const Frame& frame) {
+  return kTwoPi / (frame.motor_angle.maxCoeff() - frame.motor_angle.minCoeff());
+}
 
 std::optional<Ripple> ripple_left(const Frame& frame, const Findings& findings) {
   if (!frame.travels || !frame.has(Equation::torsion)) return std::nullopt;
   const std::size_t e = index_of(Equation::torsion);
   const auto strokes = all_strokes(frame, findings.fit.residual[e]);
-  if (strokes.empty()) return std::nullopt;
-  const double turns = (frame.motor_angle.maxCoeff() - frame.motor_angle.minCoeff()) / kTwoPi;
-  const double step = kStep / turns;
-  const double first = std::ranges::min(strokes, {}, &Strokes::lowest).lowest;
-  const double last =
-      std::min(kHighestOrder, std::ranges::max(strokes, {}, &Strokes::highest).highest);
-  std::vector<Ripple> orders;
-  for (Spectrum spectrum(frame, strokes, first, step); spectrum.order() <= last;
-       spectrum.advance()) {
-    orders.push_back(spectrum.ripple(findings.noise[e].colour));
+  return strongest_line(spectrum_of(frame, strokes, findings.noise[e].colour));
+}
+
+std::optional<RippleProof> prove_ripple(const Frame& frame, const Findings& findings) {
+  const std::size_t e = index_of(Equation::torsion);
+  const double colour = findings.noise[e].colour;
+  const auto strokes = all_strokes(frame, findings.fit.residual[e]);
+  RippleProof proof;
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
+    std::vector<Strokes> own;
+    std::vector<Strokes> others;
+    for (const Strokes& one : strokes) (one.segment == i ? own : others).push_back(one);
+    const auto told = strongest_line(spectrum_of(frame, others, colour));
+    if (!told || own.empty()) continue;
+    const auto seen =
+        line_near(spectrum_of(frame, own, colour), told->order, resolved_order(frame));
+    if (!seen) continue;
+    double squares = 0.0;
+    for (const Strokes& one : own) squares += one.sum_of_squares;
+    before += squares;
+    after += squares * (1.0 - seen->share);
+    proof.statistic += seen->statistic;
+    proof.recordings.push_back(i);
   }
-  const auto best = std::ranges::max_element(orders, {}, &Ripple::statistic);
-  if (best == orders.end() || !is_line(orders, best - orders.begin())) return std::nullopt;
-  best->statistic -= 2.0 * std::log(static_cast<double>(orders.size()));
-  return *best;
+  if (proof.recordings.empty()) return std::nullopt;
+  proof.ratio = std::sqrt(after / before);
+  return proof;
 }
 
 }  // namespace flexspline::studies

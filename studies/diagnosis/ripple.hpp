@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "diagnosis/search.hpp"
 
@@ -26,5 +26,19 @@ struct Ripple {
 /// own in the spectrum. Orders from two periods in the window to 2.5 samples a period. None on
 /// other rigs.
 std::optional<Ripple> ripple_left(const Frame& frame, const Findings& findings);
+
+/// Orders a turn of the motor that the travel tells apart: one period over all of it.
+double resolved_order(const Frame& frame);
+
+/// What recordings say of a ripple whose order they had no part in finding.
+struct RippleProof {
+  double ratio = 1.0;  ///< of their fast changes, root mean square without the ripple over with it
+  double statistic = 0.0;               ///< summed over them
+  std::vector<std::size_t> recordings;  ///< those that have a line of their own there
+};
+
+/// The order from all recordings but one, held against that one; amplitude and phase are its own.
+/// None where no recording confirms what the others tell.
+std::optional<RippleProof> prove_ripple(const Frame& frame, const Findings& findings);
 
 }  // namespace flexspline::studies

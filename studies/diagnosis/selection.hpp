@@ -31,6 +31,7 @@ struct Limits {
   double held_out = 1.0;   ///< error on recordings held out with a cause over without it
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in
                            ///< for something without a name
+  double ripple_share = 0.25;  ///< least share of the fast changes in steady strokes that is named
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has
 };

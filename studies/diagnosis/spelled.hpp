@@ -14,6 +14,12 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& selection
 std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& selection,
                                        const Limits& limits);
 /// |cosine| between what the causes of the first round change in the prediction.
+/// A ripple over the motor's angle that no cause took: its coordinate, and a note. Where the
+/// catalogue has a cause of its order for joints that travel, and a recording confirms the order
+/// that the others tell, that cause is named, however small against the torque: of the fast
+/// changes in steady strokes it has to be a quarter.
+void spell_ripple(const Frame& frame, const Selection& selection, const Limits& limits,
+                  Diagnosis& diagnosis);
 std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& selection);
 std::vector<TriedCandidate> spelled_trials(const Selection& selection, const Limits& limits);
 std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& selection);

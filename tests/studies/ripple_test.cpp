@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/ripple.hpp"
+#include "diagnosis/spelled.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -98,6 +99,51 @@ TEST(RippleLeft, IsNoneInWhatChangesSlowlyAlongTheTravel) {
   joint.residual() += 0.5 * (3.0 * joint.frame.torsion).sin();
   const auto ripple = joint.ripple();
   EXPECT_LT(ripple ? ripple->statistic : 0.0, 20.0);
+}
+
+/// What a diagnosis that found nothing else says of a ripple of this order and amplitude, in the
+/// recordings from this one on.
+Diagnosis said_of(double order, double amplitude, Index from = 0) {
+  Joint joint(0.02, 1.0);
+  joint.frame.torque_range = 30.0;
+  const Index rows = joint.residual().size() - from;
+  joint.residual().tail(rows) +=
+      amplitude * (order * joint.frame.motor_angle.tail(rows) + 0.4).sin();
+  Selection s;
+  s.final = joint.findings;
+  Diagnosis d;
+  d.verdict = Verdict::adequate;
+  spell_ripple(joint.frame, s, Limits{}, d);
+  return d;
+}
+
+TEST(SpellRipple, NamesTheOrdersThatTheCatalogueHas) {
+  const Diagnosis d = said_of(2.0, 0.03);
+  ASSERT_EQ(d.causes.size(), 1u);
+  const Cause& cause = d.causes.front();
+  EXPECT_EQ(cause.effect, "kinematic_error");
+  EXPECT_NEAR(cause.size_fraction, 0.001, 1e-4);
+  EXPECT_EQ(cause.alternatives,
+            (std::vector<std::string>{"motor_torque_ripple", "position_dependent_friction"}));
+  EXPECT_NEAR(cause.evidence.holdout_rmse_ratio, std::sqrt(4.0 / (0.5 * 9.0 + 4.0)), 0.02)
+      << "the noise over both";
+  EXPECT_EQ(d.verdict, Verdict::explained);
+  ASSERT_EQ(d.mismatch.size(), 1u);
+  EXPECT_EQ(d.mismatch.front().coordinate, "motor_angle");
+}
+
+TEST(SpellRipple, TellsOtherOrdersWithoutAName) {
+  const Diagnosis d = said_of(2.4, 0.03);
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_EQ(d.notes.size(), 1u);
+  EXPECT_EQ(d.mismatch.size(), 1u);
+}
+
+TEST(SpellRipple, NamesNothingThatOneRecordingAloneHas) {
+  const Diagnosis d = said_of(2.0, 0.06, 6000);
+  EXPECT_TRUE(d.causes.empty());
+  EXPECT_EQ(d.notes.size(), 1u);
+  EXPECT_EQ(d.verdict, Verdict::adequate);
 }
 
 TEST(RippleLeft, IsForAnglesThatTravel) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "diagnosis/cause_columns.hpp"
@@ -44,6 +45,8 @@ Columns torque_wound_up(Equation, const Frame& f, const Reference&, Values shape
   return sine_pair(f.motor_angle, shape[0]);
 }
 
+bool ripples(double order) { return std::ranges::find(kOrders, order) != kOrders.end(); }
+
 Counterpart as_error(const FittedCause& c) {
   EffectSpec effect{"kinematic_error", {}};
   for (std::size_t i = 0; i < kOrders.size(); ++i) {
@@ -74,6 +77,7 @@ CauseRow describe_kinematic_error() {
                      .shapes = turns,
                      .columns = torque_wound_up,
                      .where = travels,
+                     .ripples = ripples,
                      .no_counterpart = kNoTorsion}}};
 }
 

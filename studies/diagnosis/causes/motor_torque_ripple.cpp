@@ -6,9 +6,13 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
+constexpr double kHighestOrder = 36.0;
+
 std::vector<Shape> turns(const Frame&) {
-  return {{.name = "order", .unit = "1", .lower = 1.0, .upper = 36.0, .discrete = true}};
+  return {{.name = "order", .unit = "1", .lower = 1.0, .upper = kHighestOrder, .discrete = true}};
 }
+
+bool ripples(double order) { return order >= 1.0 && order <= kHighestOrder; }
 
 Columns ripple(Equation, const Frame& f, const Reference&, Values shape) {
   return sine_pair(f.motor_angle, shape[0]);
@@ -47,6 +51,7 @@ CauseRow describe_motor_torque_ripple() {
                      .shapes = turns,
                      .columns = ripple,
                      .where = geared,
+                     .ripples = ripples,
                      .counterpart = cogging},
                     {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m)",
                      .rigs = kTurning,

@@ -19,6 +19,8 @@ Columns at_motor(Equation, const Frame& f, const Reference& known, Values) {
   return turns(f.motor_angle, known.motor_sign);
 }
 
+bool ripples(double order) { return order == 1.0 || order == 2.0; }
+
 Columns at_joint(Equation, const Frame& f, const Reference& known, Values) {
   return turns(f.motor_angle, rounded_sign(f.torsion_rate, known.torsion_coulomb_rate));
 }
@@ -88,6 +90,7 @@ CauseRow describe_position_dependent_friction() {
                .at = {Equation::torsion},
                .columns = at_joint,
                .where = travels,
+               .ripples = ripples,
                .counterpart = joint_waves},
               {.equation = "tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel",
                .rigs = {Rig::specimen},

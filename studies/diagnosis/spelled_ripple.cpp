@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <boost/math/special_functions/gamma.hpp>
+
+#include "diagnosis/ripple.hpp"
+#include "diagnosis/spelled.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::string_view kCoordinate = "motor_angle";
+constexpr double kLargestChiSquare = 1400.0;
+
+std::string in_words(const Frame& frame, const Ripple& ripple) {
+  return fmt::format(
+      "{:.0f} % of the fast changes left in steady strokes follow the motor angle {:.2f} times a "
+      "turn, {:.0f} times one of the output: {:.2g} Nm at most, {:.2g} % of the largest torque",
+      100.0 * ripple.share, ripple.order, ripple.order * frame.ratio, ripple.amplitude,
+      100.0 * ripple.amplitude / frame.torque_range);
+}
+
+/// The cause that the catalogue has for a ripple of this order in a joint's torque, and the others
+/// over the motor's angle, as alternatives: what lies between the motor and the sensor turns the
+/// phase with the speed and its sign, so that the phase tells no friction from another torque.
+struct Name {
+  const CauseRow* row = nullptr;
+  const CauseForm* form = nullptr;
+  double order = 0.0;
+  std::vector<std::string> others;
+};
+
+Name name_of(const Frame& frame, const Ripple& ripple) {
+  Name name;
+  name.order = std::round(ripple.order);
+  if (std::abs(ripple.order - name.order) > resolved_order(frame)) return {};
+  for (const CauseRow& row : causes()) {
+    if (row.coordinate != kCoordinate) continue;
+    const auto fits = [&](const CauseForm& form) {
+      return form.ripples != nullptr && form.ripples(name.order);
+    };
+    const auto here = forms_on(row, frame);
+    const auto form = std::ranges::find_if(here, [&](auto* f) { return fits(*f); });
+    if (name.row == nullptr && form != here.end()) {
+      name.row = &row;
+      name.form = *form;
+    } else if (std::ranges::any_of(row.forms, fits)) {
+      name.others.emplace_back(row.id);
+    }
+  }
+  return name;
+}
+
+Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleProof& proof,
+               const Name& name) {
+  Cause cause;
+  cause.effect = name.row->id;
+  cause.probability = 1.0 / static_cast<double>(1 + name.others.size());
+  cause.size_fraction = ripple.amplitude / frame.torque_range;
+  cause.equation = name.form->equation;
+  cause.parameters = {{"order", name.order, kNotComputed, "1"},
+                      {"amplitude", ripple.amplitude, kNotComputed, "Nm"}};
+  cause.alternatives = name.others;
+  cause.evidence.score_p_value =
+      boost::math::gamma_q(2.0 * static_cast<double>(proof.recordings.size()),
+                           0.5 * std::min(proof.statistic, kLargestChiSquare));
+  cause.evidence.delta_bic = -ripple.statistic;
+  cause.evidence.holdout_rmse_ratio = proof.ratio;
+  cause.evidence.ablation_ratio = 1.0 / proof.ratio;
+  return cause;
+}
+
+Mismatch mismatch_of(const Frame& frame, const Ripple& ripple) {
+  return {.recording = frame.segments[ripple.segment].id,
+          .from_s = ripple.from_s,
+          .to_s = ripple.to_s,
+          .coordinate = std::string(kCoordinate),
+          .equation = std::string(name_of(Equation::torsion)),
+          .says = in_words(frame, ripple)};
+}
+
+void name_ripple(const Frame& frame, const Selection& s, const Limits& limits, const Ripple& ripple,
+                 Diagnosis& d) {
+  const Name name = name_of(frame, ripple);
+  if (name.row == nullptr || ripple.share < limits.ripple_share) return;
+  const auto proof = prove_ripple(frame, s.final);
+  if (!proof || proof->statistic < limits.named_gain) return;
+  d.causes.push_back(cause_of(frame, ripple, *proof, name));
+  if (d.verdict == Verdict::adequate) d.verdict = Verdict::explained;
+  if (d.verdict == Verdict::unexplained) d.verdict = Verdict::partly_explained;
+}
+
+}  // namespace
+
+void spell_ripple(const Frame& frame, const Selection& s, const Limits& limits, Diagnosis& d) {
+  const auto ripple = ripple_left(frame, s.final);
+  if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.remainder_share) {
+    return;
+  }
+  d.notes.push_back(in_words(frame, *ripple) + "; it is not part of the model");
+  const bool named = std::ranges::any_of(
+      s.accepted, [](const Accepted& a) { return a.trial.cause.row->coordinate == kCoordinate; });
+  if (named) return;
+  std::erase_if(d.mismatch, [](const Mismatch& m) { return m.coordinate == kCoordinate; });
+  const auto behind_causes = std::min(d.mismatch.size(), s.accepted.size());
+  d.mismatch.insert(d.mismatch.begin() + static_cast<std::ptrdiff_t>(behind_causes),
+                    mismatch_of(frame, *ripple));
+  name_ripple(frame, s, limits, *ripple, d);
+}
+
+}  // namespace flexspline::studies
