@@ -16,17 +16,19 @@ const std::string& pick(const std::vector<std::string>& ids, std::uint64_t seed,
 }  // namespace
 
 ConcealKind kind_at(const ConcealDraw& draw, double u) {
-  double left = u * (draw.none + draw.one + draw.two + draw.unknown);
+  double left = u * (draw.none + draw.one + draw.two + draw.unknown + draw.contained);
   if ((left -= draw.none) < 0.0) return ConcealKind::none;
   if ((left -= draw.one) < 0.0) return ConcealKind::one;
   if ((left -= draw.two) < 0.0) return ConcealKind::two;
-  return draw.unknown > 0.0 ? ConcealKind::unknown : ConcealKind::none;
+  if ((left -= draw.unknown) < 0.0) return ConcealKind::unknown;
+  return draw.contained > 0.0 ? ConcealKind::contained : ConcealKind::none;
 }
 
 std::vector<std::string> drawable(const ConcealDraw& draw, Rig rig) {
   std::vector<std::string> ids = concealable(rig, true);
-  if (draw.effects.empty()) return ids;
-  std::erase_if(ids, [&draw](const std::string& id) {
+  const std::vector<std::string> contained = contained_on(rig);
+  std::erase_if(ids, [&](const std::string& id) {
+    if (draw.effects.empty()) return std::ranges::find(contained, id) != contained.end();
     return std::ranges::find(draw.effects, id) == draw.effects.end();
   });
   return ids;
@@ -49,7 +51,9 @@ double draw_size(const ConcealDraw& draw, std::uint64_t seed, std::uint64_t inde
 std::vector<data::HiddenEffect> draw_effects(const ConcealDraw& draw, Rig rig, std::uint64_t seed) {
   const ConcealKind kind = kind_at(draw, lot(seed, "kind", 0));
   if (kind == ConcealKind::none) return {};
-  const auto ids = kind == ConcealKind::unknown ? concealable(rig, false) : drawable(draw, rig);
+  const auto ids = kind == ConcealKind::unknown     ? concealable(rig, false)
+                   : kind == ConcealKind::contained ? contained_on(rig)
+                                                    : drawable(draw, rig);
   const std::string& first = pick(ids, seed, "first");
   std::vector<data::HiddenEffect> effects = {{first, draw_size(draw, seed, 0)}};
   if (kind == ConcealKind::two) {

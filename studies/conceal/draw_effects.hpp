@@ -8,12 +8,13 @@
 
 namespace flexspline::studies {
 
-enum class ConcealKind { none, one, two, unknown };
+enum class ConcealKind { none, one, two, unknown, contained };
 
 /// The kind at a share u in [0, 1) of the probabilities' sum.
 ConcealKind kind_at(const ConcealDraw& draw, double u);
 
-/// What may be drawn on a rig, catalogued.
+/// What one or two may be drawn from on a rig: catalogued, and not contained in the baseline unless
+/// the draw lists it.
 std::vector<std::string> drawable(const ConcealDraw& draw, Rig rig);
 
 /// Those that can stand beside the first of a pair: neither itself nor a structural twin.

@@ -98,9 +98,10 @@ ConcealDraw read_draw(TomlSection& section, const std::vector<Rig>& rigs) {
   draw.one = read_bounded(section, "one", 0.0, 1e6).value_or(0.0);
   draw.two = read_bounded(section, "two", 0.0, 1e6).value_or(0.0);
   draw.unknown = read_bounded(section, "unknown", 0.0, 1e6).value_or(0.0);
-  if (!(draw.none + draw.one + draw.two + draw.unknown > 0.0)) {
+  draw.contained = read_bounded(section, "contained", 0.0, 1e6).value_or(0.0);
+  if (!(draw.none + draw.one + draw.two + draw.unknown + draw.contained > 0.0)) {
     section.refuse("none", fmt::format("'{}' has no probability", section.name_of("none")),
-                   "give at least one of none, one, two, unknown");
+                   "give at least one of none, one, two, unknown, contained");
   }
   read_sizes(section, draw);
   draw.effects = section.texts("effects");

@@ -42,12 +42,15 @@ class RigCases {
         ids_(drawable(trial.draw, rig)),
         singles_(ids_, seed_, "single-" + name_),
         pairs_(ids_, seed_, "pair-" + name_),
-        unknown_(concealable(rig, false), seed_, "unknown-" + name_) {}
+        unknown_(concealable(rig, false), seed_, "unknown-" + name_),
+        contained_(contained_on(rig), seed_, "contained-" + name_) {}
 
   std::vector<data::HiddenEffect> next(std::uint64_t bench_seed) {
     const ConcealKind kind = next_kind();
     if (kind == ConcealKind::none) return {};
     if (kind == ConcealKind::unknown) return {{unknown_.next(), draw_size(draw_, bench_seed, 0)}};
+    if (kind == ConcealKind::contained)
+      return {{contained_.next(), draw_size(draw_, bench_seed, 0)}};
     if (kind == ConcealKind::one) return {{singles_.next(), draw_size(draw_, bench_seed, 0)}};
     const std::string first = pairs_.next();
     const std::vector<std::string> others = partners(ids_, first, rig_);
@@ -74,6 +77,7 @@ class RigCases {
   Turns singles_;
   Turns pairs_;
   Turns unknown_;
+  Turns contained_;
   std::uint64_t taken_ = 0;
 };
 

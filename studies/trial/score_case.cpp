@@ -16,7 +16,10 @@ CaseKind kind_of(const ConcealedAnswer& answer) {
   for (const data::HiddenFinding& effect : answer.effects) {
     if (effect.id.starts_with("unknown")) return CaseKind::unknown;
   }
-  return answer.effects.size() == 1 ? CaseKind::single : CaseKind::pair;
+  if (answer.effects.size() > 1) return CaseKind::pair;
+  const auto contained = contained_on(answer.rig);
+  const bool held = std::ranges::find(contained, answer.effects.front().id) != contained.end();
+  return held ? CaseKind::contained : CaseKind::single;
 }
 
 Names truth_of(const ConcealedAnswer& answer) {
@@ -53,9 +56,10 @@ void score_location(const ConcealedAnswer& answer, const Diagnosis& diagnosis, C
   for (const data::HiddenFinding& effect : answer.effects) {
     if (!effect.coordinate.empty()) coordinates.insert(effect.coordinate);
   }
-  score.has_coordinate = !coordinates.empty();
+  score.has_coordinate = !coordinates.empty() && score.kind != CaseKind::contained;
   for (std::size_t k = 0; k < std::min(kMismatches, diagnosis.mismatch.size()); ++k) {
-    score.located = score.located || coordinates.contains(diagnosis.mismatch[k].coordinate);
+    score.located = score.located || (score.has_coordinate &&
+                                      coordinates.contains(diagnosis.mismatch[k].coordinate));
   }
 }
 
@@ -76,6 +80,10 @@ void score_names(const ConcealedAnswer& answer, const Diagnosis& diagnosis,
   score.null_right = score.kind == CaseKind::null && verdict == Verdict::adequate && got.empty();
   score.unknown_right = score.kind == CaseKind::unknown && got.empty() &&
                         (verdict == Verdict::unexplained || verdict == Verdict::partly_explained);
+  score.contained_right =
+      score.kind == CaseKind::contained &&
+      std::ranges::all_of(got, [&](const auto& name) { return right.contains(name); }) &&
+      (!got.empty() || verdict == Verdict::adequate);
   if (score.kind == CaseKind::single) {
     score.first_right = !got.empty() && right.contains(got.front());
     score.exact = score.first_right && got.size() == 1;
@@ -102,6 +110,8 @@ std::string_view name_of(CaseKind kind) {
       return "single";
     case CaseKind::pair:
       return "pair";
+    case CaseKind::contained:
+      return "contained";
     case CaseKind::unknown:
       break;
   }

@@ -53,6 +53,8 @@ void add_counters(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add("unknown_unnamed", count(cases, [](const CaseScore& score) {
         return score.kind == CaseKind::unknown && !score.failed && score.named == 0;
       }));
+  add("contained", count(cases, is(CaseKind::contained)));
+  add_if("contained_ok", &CaseScore::contained_right);
   add("false_names", sum(cases, &CaseScore::false_names));
   add("named", sum(cases, &CaseScore::named));
   add_if("coord", &CaseScore::has_coordinate);
@@ -70,6 +72,7 @@ void add_rates(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add("pair_one", "pair_one", "pair");
   add("unknown_ok", "unknown_ok", "unknown");
   add("unknown_unnamed", "unknown_unnamed", "unknown");
+  add("contained_ok", "contained_ok", "contained");
   add("coord_ok", "coord_ok", "coord");
   const int falsely = count(cases, [](const CaseScore& score) { return score.false_names > 0; });
   const int diagnosed = scores.counter("cases") - scores.counter("failed");

@@ -34,7 +34,8 @@ double number(const ordered_json& json, const char* key) {
 }
 
 CaseKind kind_of(const std::string& name) {
-  for (const CaseKind kind : {CaseKind::null, CaseKind::single, CaseKind::pair}) {
+  for (const CaseKind kind :
+       {CaseKind::null, CaseKind::single, CaseKind::pair, CaseKind::contained}) {
     if (name_of(kind) == name) return kind;
   }
   return CaseKind::unknown;
@@ -51,6 +52,7 @@ CaseScore score_from_json(const ordered_json& json) {
   score.pair_both = json.at("pair_both").get<bool>();
   score.pair_one = json.at("pair_one").get<bool>();
   score.unknown_right = json.at("unknown_right").get<bool>();
+  score.contained_right = json.at("contained_right").get<bool>();
   score.named = json.at("named").get<int>();
   score.false_names = json.at("false_names").get<int>();
   score.has_coordinate = json.at("has_coordinate").get<bool>();
@@ -101,6 +103,7 @@ ordered_json to_json(const CaseScore& score) {
           {"pair_both", score.pair_both},
           {"pair_one", score.pair_one},
           {"unknown_right", score.unknown_right},
+          {"contained_right", score.contained_right},
           {"named", score.named},
           {"false_names", score.false_names},
           {"has_coordinate", score.has_coordinate},

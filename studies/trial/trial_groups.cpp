@@ -12,6 +12,7 @@ namespace {
 std::string truth_label(const ScoredCase& one) {
   if (one.score.kind == CaseKind::null) return "nothing";
   if (one.score.kind == CaseKind::pair) return "two effects";
+  if (one.score.kind == CaseKind::contained) return "contained in the baseline";
   return one.answer.effects.front().id;
 }
 
@@ -20,6 +21,7 @@ std::string named_label(const ScoredCase& one) {
   const std::string& name = one.score.first_name;
   const auto& effects = one.answer.effects;
   const bool right = std::ranges::find(effects, name, &data::HiddenFinding::id) != effects.end();
+  if (one.score.kind == CaseKind::contained && right) return "contained in the baseline";
   return one.score.kind == CaseKind::pair && right ? "one of the two" : name;
 }
 

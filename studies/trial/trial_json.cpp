@@ -31,16 +31,17 @@ ordered_json case_json(const ScoredCase& one) {
       {"trace", ordered_json::array()},
       {"verdict", one.verdict},
       {"named", one.named},
-      {"right",
-       one.score.null_right || one.score.exact || one.score.pair_both || one.score.unknown_right},
+      {"right", one.score.null_right || one.score.exact || one.score.pair_both ||
+                    one.score.unknown_right || one.score.contained_right},
       {"after_over_noise", one.score.after_over_noise},
       {"seconds", one.seconds},
       {"failure", one.failure.empty() ? ordered_json(nullptr) : ordered_json(one.failure)}};
   for (const data::HiddenFinding& effect : one.answer.effects) {
     json["effects"].push_back(effect.id);
     json["size"].push_back(effect.size_fraction);
+    const auto trace = std::ranges::find(one.traces, effect.id, &EffectTrace::effect);
+    json["trace"].push_back(trace == one.traces.end() ? kNotComputed : trace->share);
   }
-  for (const EffectTrace& trace : one.traces) json["trace"].push_back(trace.share);
   return json;
 }
 
@@ -55,6 +56,7 @@ ordered_json design_json(const TrialConfig& trial) {
           {"one", draw.one},
           {"two", draw.two},
           {"unknown", draw.unknown},
+          {"contained", draw.contained},
           {"size_fraction", {draw.smallest, draw.largest}},
           {"effects", draw.effects},
           {"nuisances", trial.nuisances},

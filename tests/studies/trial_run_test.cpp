@@ -211,26 +211,35 @@ TEST(PlanOfATrial, DoesNotDependOnHowManyCasesThereAre) {
   }
 }
 
+std::string kind_of(const ConcealPlan& plan) {
+  if (plan.effects.empty()) return "none";
+  const std::string& id = plan.effects.front().id;
+  if (id.starts_with("unknown:")) return "unknown";
+  if (plan.effects.size() == 2) return "two";
+  return testing::Matches(testing::Contains(id))(contained_on(plan.rig)) ? "contained" : "one";
+}
+
 TEST(PlanOfATrial, HasItsSharesAndTriesEveryEffect) {
   TrialConfig trial = small_trial(400);
   trial.rigs = {Rig::locked, Rig::free};
-  trial.draw = {.none = 0.25, .one = 0.5, .two = 0.15, .unknown = 0.1, .effects = {}};
-  std::map<std::size_t, int> counts;
+  trial.draw = {
+      .none = 0.2, .one = 0.4, .two = 0.15, .unknown = 0.1, .contained = 0.15, .effects = {}};
+  std::map<std::string, int> counts;
   std::map<std::pair<Rig, std::string>, int> singles;
   for (const TrialCase& one : plan_trial(trial)) {
     const auto& effects = one.plan.effects;
-    const bool unknown = effects.size() == 1 && effects[0].id.starts_with("unknown:");
-    ++counts[unknown ? 99 : effects.size()];
-    if (effects.size() == 1 && !unknown) ++singles[{one.plan.rig, effects[0].id}];
+    ++counts[kind_of(one.plan)];
+    if (effects.size() == 1) ++singles[{one.plan.rig, effects[0].id}];
     for (const auto& effect : effects) {
       EXPECT_GE(effect.size_fraction, trial.draw.smallest);
       EXPECT_LE(effect.size_fraction, trial.draw.largest);
     }
   }
-  EXPECT_NEAR(counts[0], 100, 4);
-  EXPECT_NEAR(counts[1], 200, 4);
-  EXPECT_NEAR(counts[2], 60, 4);
-  EXPECT_NEAR(counts[99], 40, 4);
+  EXPECT_NEAR(counts["none"], 80, 4);
+  EXPECT_NEAR(counts["one"], 160, 4);
+  EXPECT_NEAR(counts["two"], 60, 4);
+  EXPECT_NEAR(counts["unknown"], 40, 4);
+  EXPECT_NEAR(counts["contained"], 60, 4);
   for (const Rig rig : trial.rigs) {
     for (const std::string& id : concealable(rig, true)) {
       EXPECT_GE((singles[{rig, id}]), 3) << id;
@@ -244,9 +253,20 @@ TEST(PlanOfATrial, PairsNoStructuralTwins) {
   for (const TrialCase& one : plan_trial(trial)) {
     const auto& effects = one.plan.effects;
     ASSERT_EQ(effects.size(), 2U);
+    for (const auto& effect : effects) {
+      EXPECT_THAT(contained_on(one.plan.rig), testing::Not(testing::Contains(effect.id)));
+    }
     EXPECT_NE(effects[0].id, effects[1].id);
     EXPECT_THAT(twins_of(effects[0].id, Rig::locked),
                 testing::Not(testing::Contains(effects[1].id)));
+  }
+}
+
+TEST(PlanOfATrial, DrawsWhatABaselineContainsWhereItIsListed) {
+  TrialConfig trial = small_trial(8);
+  trial.draw = {.none = 0, .one = 1, .two = 0, .unknown = 0, .effects = {"soft_windup"}};
+  for (const TrialCase& one : plan_trial(trial)) {
+    EXPECT_EQ(one.plan.effects.front().id, "soft_windup");
   }
 }
 

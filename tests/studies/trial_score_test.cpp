@@ -114,6 +114,23 @@ TEST(ScoreOfAnUnknown, IsRightWhenSomethingIsLeftOutAndHasNoName) {
   EXPECT_EQ(named.false_names, 1);
 }
 
+// With it nothing was left out, and its own name is not wrong either.
+TEST(ScoreOfAContainedEffect, IsRightWithoutANameOrWithItsOwn) {
+  const auto soft = answer_with(Rig::locked, {"soft_windup"});
+  const auto adequately = score(soft, diagnosis_with(adequate, {}));
+  EXPECT_EQ(adequately.kind, CaseKind::contained);
+  EXPECT_TRUE(adequately.contained_right);
+  EXPECT_FALSE(adequately.has_coordinate);
+  EXPECT_TRUE(score(soft, diagnosis_with(explained, {cause("soft_windup")})).contained_right);
+  const auto falsely = score(soft, diagnosis_with(explained, {cause("backlash")}));
+  EXPECT_FALSE(falsely.contained_right);
+  EXPECT_EQ(falsely.false_names, 1);
+  EXPECT_FALSE(score(soft, diagnosis_with(unexplained, {})).contained_right);
+  EXPECT_EQ(score(answer_with(Rig::servo, {"soft_windup"}), diagnosis_with(adequate, {})).kind,
+            CaseKind::single)
+      << "a matter of the rig";
+}
+
 TEST(ScoreOfALocation, TakesTheFirstThreeMismatches) {
   const auto diagnosis = [](const std::vector<std::string>& coordinates) {
     return diagnosis_with(explained, {cause("backlash")}, coordinates);

@@ -23,9 +23,12 @@ struct ConcealDraw {
   double one = 0.5;
   double two = 0.1;
   double unknown = 0.1;    ///< one effect that no catalogue has
+  double contained = 0.0;  ///< one effect that the rig's baseline contains
   double smallest = 0.02;  ///< size, share of peak torque
   double largest = 0.10;
-  std::vector<std::string> effects;  ///< to draw from; empty: all that the rig can conceal
+  /// To draw one or two from; empty: all that the rig can conceal and its baseline does not
+  /// contain.
+  std::vector<std::string> effects;
 };
 
 /// A bench with something to conceal, as read. SI.
@@ -63,6 +66,17 @@ struct StructuralTwin {
 
 std::span<const StructuralTwin> structural_twins();
 std::vector<std::string> twins_of(std::string_view effect, Rig rig);
+
+/// An effect that a rig's baseline contains: what the fitted laws leave of it is less than a
+/// twentieth of its size (in the median of drawn benches). With it nothing was left out.
+struct ContainedEffect {
+  std::string_view effect;
+  std::vector<Rig> rigs;
+  std::string_view reason;
+};
+
+std::span<const ContainedEffect> contained_effects();
+std::vector<std::string> contained_on(Rig rig);
 
 /// Ids that a rig can conceal: the catalogued ones, or those outside every catalogue.
 std::vector<std::string> concealable(Rig rig, bool catalogued);

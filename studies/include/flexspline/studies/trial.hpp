@@ -55,7 +55,7 @@ struct TrialCase {
 std::vector<TrialCase> plan_trial(const TrialConfig& trial);
 
 /// What a case was, by what it hides.
-enum class CaseKind { null, single, pair, unknown };
+enum class CaseKind { null, single, pair, unknown, contained };
 
 std::string_view name_of(CaseKind kind);
 
@@ -70,12 +70,13 @@ struct CaseScore {
   bool exact = false;        ///< single: and the only one
   bool pair_both = false;
   bool pair_one = false;
-  bool unknown_right = false;   ///< unknown: something is left out, and has no name
-  int named = 0;                ///< causes
-  int false_names = 0;          ///< causes that are not there
-  bool located = false;         ///< a right coordinate among the first three mismatches
-  bool has_coordinate = false;  ///< the truth has one
-  std::string first_name;       ///< "adequate", "no name", or an effect; a twin is the truth
+  bool unknown_right = false;    ///< unknown: something is left out, and has no name
+  bool contained_right = false;  ///< contained: adequate, or its own name and no other
+  int named = 0;                 ///< causes
+  int false_names = 0;           ///< causes that are not there
+  bool located = false;          ///< a right coordinate among the first three mismatches
+  bool has_coordinate = false;   ///< the truth has one
+  std::string first_name;        ///< "adequate", "no name", or an effect; a twin is the truth
   double after_over_noise = kNotComputed;  ///< hold-out after over the noise; named cases
   double after_over_best = kNotComputed;   ///< over what the true drive leaves
   double gain_share = kNotComputed;        ///< (before - after) / (before - best)
@@ -99,7 +100,7 @@ struct ScoredCase {
   ConcealedAnswer answer;
   std::string verdict;  ///< or "failed"
   std::vector<std::string> named;
-  std::vector<EffectTrace> traces;  ///< of the effects, in their order; empty: nothing is hidden
+  std::vector<EffectTrace> traces;  ///< of the effects, by name; empty: nothing is hidden
   CaseScore score;
   double seconds = kNotComputed;
   std::string failure;  ///< why there is no diagnosis
