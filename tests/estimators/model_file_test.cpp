@@ -166,6 +166,41 @@ TEST(ModelFile, WhatIsHeldStaysAndWidthsAreHeldUnlessFreed) {
   }));
 }
 
+ModelSpec gear_with_gap(double half_gap) {
+  return spring_with({{"backlash", {{"half_gap", half_gap}, {"rounding", 0.002}}}});
+}
+
+/// In a gap as wide as all of the motion nothing tells how wide it is.
+FitProblem lost_in_a_gap() {
+  auto problem = problem_of(gear_with_gap(0.15));
+  problem.records = {along(gear_with_gap(0.02), 0.08, 1.3, 0.0)};
+  return problem;
+}
+
+TEST(ModelFile, OtherStartsFindTheValleyThatTheOneGivenMisses) {
+  auto problem = lost_in_a_gap();
+  const auto one = fitted(problem);
+  problem.options.numbers["starts"] = 8;
+  const auto many = fitted(problem);
+  ASSERT_TRUE(one && many);
+  EXPECT_GT(one->cost, 100.0 * many->cost);
+  EXPECT_NEAR(value_of(*many, "backlash.half_gap"), 0.02, 1e-4);
+  EXPECT_EQ(many->termination, Termination::converged);
+  EXPECT_TRUE(one->notes.empty());
+  ASSERT_FALSE(many->notes.empty());
+  EXPECT_THAT(many->notes.back(), HasSubstr("of 8 starts"));
+}
+
+TEST(ModelFile, WhatOneStartAloneFindsIsNotTakenForTheMinimum) {
+  auto problem = lost_in_a_gap();
+  problem.options.numbers["starts"] = 2;
+  const auto estimate = fitted(problem);
+  ASSERT_TRUE(estimate);
+  EXPECT_LT(estimate->cost, 1.0);
+  EXPECT_EQ(estimate->termination, Termination::no_progress);
+  EXPECT_THAT(estimate->notes.back(), AllOf(HasSubstr("1 of 2 starts"), HasSubstr("no two agree")));
+}
+
 TEST(ModelFile, RefusesWhatItCannotFit) {
   auto problem = problem_of(kStart);
   problem.model.reset();
