@@ -27,6 +27,7 @@ struct Limits {
   double explained = 0.75;        ///< share of the misfit that the causes have to remove
   double half = 0.5;              ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;            ///< mean square over noise that counts as explained
+  double unordered = 2.5;         ///< and that is something left, whatever orders it
   double unproved = 0.25;  ///< share of the misfit that an unproved cause cannot take quietly
   double held_out = 1.0;   ///< error on recordings held out with a cause over without it
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in

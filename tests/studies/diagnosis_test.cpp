@@ -31,6 +31,14 @@ TEST(Diagnose, SaysWithoutANameWhatIsTooSmallForOne) {
   EXPECT_EQ(d.says.find("presliding"), std::string::npos) << d.says;
 }
 
+// An unknown torque that no coordinate orders, with three times the mean square of the noise.
+TEST(Diagnose, SaysThatSomethingIsLeftWhereNothingOrdersIt) {
+  const auto bench = drawn_case(Rig::specimen, 405, {{"unknown:cross", 0.025}});
+  const Diagnosis d = diagnosed(bench.recordings);
+  EXPECT_EQ(d.verdict, Verdict::unexplained);
+  EXPECT_TRUE(d.causes.empty());
+}
+
 class DiagnoseVisible : public testing::TestWithParam<Bench> {};
 
 TEST_P(DiagnoseVisible, EffectIsNamedFirstLocatedAndProved) { expect_found(GetParam()); }
