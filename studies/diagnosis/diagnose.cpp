@@ -91,9 +91,9 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.holdout = proof->holdout;
   d.causes = spelled_causes(*frame, *selection, *proof);
   d.mismatch = spelled_mismatch(*frame, *selection, limits);
-  spell_ripple(*frame, *selection, limits, d);
   d.confusable = spelled_confusable(*frame, *selection);
   d.tried = spelled_trials(*selection, limits);
+  spell_ripple(*frame, *selection, limits, d);
   d.moved = spelled_moves(*frame, *selection);
   d.series = spelled_series(*frame, *selection, *proof);
   d.next_experiment = next_experiment(*frame, *selection);

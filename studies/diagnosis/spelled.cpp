@@ -107,9 +107,12 @@ void add_round(const Accepted& a, int round, const Limits& limits,
   }
 }
 
-std::string proof_in_words(const HoldoutProof& proof) {
-  if (!std::isfinite(proof.ratio)) return "No recording could be held out to prove it";
-  return fmt::format("With it the error on held-out recordings falls to {:.0f} % of before",
+std::string proof_in_words(const HoldoutProof& proof, std::size_t causes) {
+  const char* them = causes == 1 ? "it" : "them";
+  if (!std::isfinite(proof.ratio)) {
+    return fmt::format("No recording could be held out to prove {}", them);
+  }
+  return fmt::format("With {} the error on held-out recordings falls to {:.0f} % of before", them,
                      100.0 * proof.ratio);
 }
 
@@ -263,11 +266,11 @@ std::string spelled_verdict(const Selection& s, const Limits& limits, const Diag
     case Verdict::adequate:
       return "Nothing was left out: the baseline explains the recordings to within their noise.";
     case Verdict::explained:
-      return fmt::format("Left out: {}. {}.", named, proof_in_words(d.holdout));
+      return fmt::format("Left out: {}. {}.", named, proof_in_words(d.holdout, d.causes.size()));
     case Verdict::partly_explained:
       return fmt::format(
           "Left out: {}. {}, but something that no catalogued effect explains is left.", named,
-          proof_in_words(d.holdout));
+          proof_in_words(d.holdout, d.causes.size()));
     case Verdict::unexplained:
       break;
   }

@@ -80,6 +80,20 @@ Mismatch mismatch_of(const Frame& frame, const Ripple& ripple) {
           .says = in_words(frame, ripple)};
 }
 
+// Among all of the torque it is noise; the table says where it is not.
+void add_to_tried(const Ripple& ripple, const RippleProof& proof, const CauseRow& row,
+                  Diagnosis& d) {
+  std::erase_if(d.tried, [&](const TriedCandidate& t) { return t.effect == row.id; });
+  const int round =
+      d.tried.empty() ? 0 : std::ranges::max(d.tried, {}, &TriedCandidate::round).round;
+  d.tried.push_back({.effect = std::string(row.id),
+                     .round = round + 1,
+                     .misfit_removed = ripple.share,
+                     .delta_bic = -ripple.statistic,
+                     .holdout_rmse_ratio = proof.ratio,
+                     .outcome = "accepted: by the fast changes in steady strokes"});
+}
+
 void name_ripple(const Frame& frame, const Selection& s, const Limits& limits, const Ripple& ripple,
                  Diagnosis& d) {
   const Name name = name_of(frame, ripple);
@@ -87,6 +101,7 @@ void name_ripple(const Frame& frame, const Selection& s, const Limits& limits, c
   const auto proof = prove_ripple(frame, s.final);
   if (!proof || proof->statistic < limits.named_gain) return;
   d.causes.push_back(cause_of(frame, ripple, *proof, name));
+  add_to_tried(ripple, *proof, *name.row, d);
   if (d.verdict == Verdict::adequate) d.verdict = Verdict::explained;
   if (d.verdict == Verdict::unexplained) d.verdict = Verdict::partly_explained;
 }

@@ -113,6 +113,8 @@ Diagnosis said_of(double order, double amplitude, Index from = 0) {
   s.final = joint.findings;
   Diagnosis d;
   d.verdict = Verdict::adequate;
+  d.tried = {{.effect = "kinematic_error", .round = 1, .outcome = "gains no more than noise would"},
+             {.effect = "backlash", .round = 1, .outcome = "gains no more than noise would"}};
   spell_ripple(joint.frame, s, Limits{}, d);
   return d;
 }
@@ -127,6 +129,10 @@ TEST(SpellRipple, NamesTheOrdersThatTheCatalogueHas) {
             (std::vector<std::string>{"motor_torque_ripple", "position_dependent_friction"}));
   EXPECT_NEAR(cause.evidence.holdout_rmse_ratio, std::sqrt(4.0 / (0.5 * 9.0 + 4.0)), 0.02)
       << "the noise over both";
+  ASSERT_EQ(d.tried.size(), 2u) << "what all of the torque says of it is replaced";
+  EXPECT_EQ(d.tried.back().effect, "kinematic_error");
+  EXPECT_EQ(d.tried.back().round, 2);
+  EXPECT_TRUE(d.tried.back().outcome.starts_with("accepted"));
   EXPECT_EQ(d.verdict, Verdict::explained);
   ASSERT_EQ(d.mismatch.size(), 1u);
   EXPECT_EQ(d.mismatch.front().coordinate, "motor_angle");
