@@ -110,23 +110,25 @@ TEST_F(RealServo, HoldsTheArmByLoadFrictionAndItsStribeckPart) {
   EXPECT_NEAR(errors.finer, errors.train, 0.01 * errors.train);
 }
 
-// That start is one of searches over the training recordings alone.
+// That start is half a percent from where a search over the training recordings alone ended: of ten
+// such the one whose fit has the lowest cost there and an arm that sticks at any tolerance.
 TEST_F(RealServo, HoldsAnotherGainsArmByLoadFrictionAndItsStribeckPart) {
   const Errors errors = errors_of("servo-both", "kp200",
-                                  {{"torque_constant", 0.419},
-                                   {"resistance", 3.83},
-                                   {"motor_inertia", 0.0019},
-                                   {"load_angle_zero", -0.0218},
-                                   {"coulomb_viscous_friction.coulomb", 0.00617},
-                                   {"coulomb_viscous_friction.viscous", 0.00902},
-                                   {"directional_load_friction.motor_share", 0.101},
-                                   {"directional_load_friction.load_share", 0.0787},
-                                   {"stribeck_load_friction.motor_share", 0.324},
-                                   {"stribeck_load_friction.load_share", 0.209},
-                                   {"stribeck_load_friction.stribeck_speed", 0.374},
-                                   {"stribeck_load_friction.exponent", 0.971}});
-  EXPECT_LT(errors.train, 0.0404) << "of load friction alone: 0.0435";
-  EXPECT_LT(errors.holdout, 0.0350) << "of load friction alone: 0.0404";
+                                  {{"torque_constant", 0.3763},
+                                   {"resistance", 3.43},
+                                   {"motor_inertia", 0.001846},
+                                   {"load_angle_zero", -0.01777},
+                                   {"coulomb_viscous_friction.coulomb", 0.007787},
+                                   {"coulomb_viscous_friction.viscous", 0.008941},
+                                   {"directional_load_friction.motor_share", 0.1828},
+                                   {"directional_load_friction.load_share", 0.04494},
+                                   {"stribeck_load_friction.motor_share", 0.2403},
+                                   {"stribeck_load_friction.load_share", 0.2199},
+                                   {"stribeck_load_friction.stribeck_speed", 0.2659},
+                                   {"stribeck_load_friction.exponent", 0.9924}});
+  EXPECT_LT(errors.train, 0.0343) << "of load friction alone: 0.0435";
+  EXPECT_NEAR(errors.finer, errors.train, 0.01 * errors.train);
+  EXPECT_LT(errors.holdout, 0.0326) << "of load friction alone: 0.0404";
 }
 
 // Their "both" has Stribeck friction in proportion to the load, this one as its square.
