@@ -69,6 +69,12 @@ bool is_left(const CoordinateScore& score, const Limits& limits) {
   return score.statistic > limits.remainder && score.share > limits.remainder_share;
 }
 
+bool stands_out(const Selection& s, const Limits& limits) {
+  return s.accepted.empty() && !s.after.empty() &&
+         s.after.front().statistic > 5.0 * limits.remainder &&
+         s.after.front().share > 0.5 * limits.remainder_share;
+}
+
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
   const Accepted* most = nullptr;
   if (!s.accepted.empty()) return most;
