@@ -15,8 +15,7 @@ std::span<const ContainedEffect> contained_effects() {
       {"nonlinear_viscous_friction",
        {Rig::locked, Rig::free, Rig::servo},
        "drag by any odd rising law of the rate is g^-1; at a motor, viscous and dry friction "
-       "follow "
-       "it over the speeds that it has"},
+       "follow it over the speeds that it has"},
       {"current_lag",
        {Rig::locked},
        "a motor torque that is late by milliseconds is, to the first order, viscous friction"},

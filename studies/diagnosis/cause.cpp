@@ -4,6 +4,13 @@
 
 namespace flexspline::studies {
 
+Equation first_equation(const Frame& frame, const CauseForm& form) {
+  for (Equation e : form.at) {
+    if (frame.has(e)) return e;
+  }
+  return form.at.front();
+}
+
 std::vector<const CauseForm*> forms_on(const CauseRow& row, const Frame& frame) {
   std::vector<const CauseForm*> list;
   for (const CauseForm& form : row.forms) {

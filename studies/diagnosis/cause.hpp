@@ -66,6 +66,9 @@ struct CauseRow {
 /// Every cause, one file each in studies/diagnosis/causes.
 std::span<const CauseRow> causes();
 
+/// The first equation of the frame that a form acts on.
+Equation first_equation(const Frame& frame, const CauseForm& form);
+
 /// The forms of a row that the frame's rig and equations allow.
 std::vector<const CauseForm*> forms_on(const CauseRow& row, const Frame& frame);
 

@@ -70,9 +70,8 @@ bool is_left(const CoordinateScore& score, const Limits& limits) {
 }
 
 bool stands_out(const Selection& s, const Limits& limits) {
-  return s.accepted.empty() && !s.after.empty() &&
-         s.after.front().statistic > 5.0 * limits.remainder &&
-         s.after.front().share > 0.5 * limits.remainder_share;
+  return s.accepted.empty() && !s.after.empty() && s.after.front().statistic > limits.doubtless &&
+         s.after.front().share > limits.doubtless_share;
 }
 
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {

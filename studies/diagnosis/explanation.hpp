@@ -10,8 +10,8 @@ double misfit_removed(const Frame& frame, const Selection& s);
 /// True where a coordinate orders more of a residual than noise and small errors of form do.
 bool is_left(const CoordinateScore& score, const Limits& limits);
 
-/// True where nothing is named and a coordinate orders half as much as that, at five times the
-/// statistic. Beside named causes it may be an error of their form.
+/// True where nothing is named and a coordinate orders less than that, but beyond doubt. Beside
+/// named causes it may be an error of their form.
 bool stands_out(const Selection& s, const Limits& limits);
 
 /// Of the causes too small to be named the one that takes most away, if it is worth as much as a

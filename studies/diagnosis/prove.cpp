@@ -89,13 +89,6 @@ void resample(const Blocks& blocks, HoldoutProof& proof) {
   proof.ci95_upper = ratios[kResamples - 1 - kResamples / 40];
 }
 
-Equation first_equation_of(const Frame& frame, const Accepted& accepted) {
-  for (Equation at : accepted.trial.cause.form->at) {
-    if (frame.has(at)) return at;
-  }
-  return accepted.trial.cause.form->at.front();
-}
-
 /// Residuals of the models compared, every held-out row by the fit that did not see it; 0
 /// elsewhere.
 struct HeldOut {
@@ -128,7 +121,7 @@ HeldOut nothing_yet(const Frame& frame, const Selection& s) {
 Result<void> take_causes(const Frame& frame, const Selection& s, const Findings& final,
                          const ArrayXd& rows, HeldOut& pool) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    const std::size_t e = index_of(first_equation_of(frame, s.accepted[i]));
+    const std::size_t e = index_of(first_equation(frame, *s.accepted[i].trial.cause.form));
     const auto without = reduced(frame, final, s.immaterial.size() + i, kSteps);
     if (!without) return tl::unexpected(without.error());
     pool.without[i] += without->residual[e] * rows;
@@ -176,7 +169,7 @@ Result<void> take_fold(const Frame& frame, const Selection& s, const ArrayXd& ou
 void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
                   Proof& proof) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    const std::size_t e = index_of(first_equation_of(frame, s.accepted[i]));
+    const std::size_t e = index_of(first_equation(frame, *s.accepted[i].trial.cause.form));
     proof.cause_ratio.push_back(rms_on(pool.final[e], held) / rms_on(pool.without[i], held));
     const double instead = rms_on(pool.placebo[e], held);
     proof.placebo_ratio.push_back(instead > 0.0 ? instead / rms_on(pool.base[e], held)

@@ -12,17 +12,19 @@ namespace flexspline::studies {
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
 /// from: docs/diagnosis.md.
 struct Limits {
-  double net_gain = 45.0;        ///< least net gain of a cause
-  double named_gain = 200.0;     ///< least net gain of a cause that is named
-  double size = 0.008;           ///< least size of a cause, share of the largest torque
-  double taken_up = 0.5;         ///< larger columns are taken up by the baseline, not seen
-  double alike = 0.9;            ///< gain of a rival over the best that makes it an alternative
-  double remainder = 60.0;       ///< statistic of a coordinate that says something is left
-  double remainder_share = 0.1;  ///< and the share of the residual it has to order
-  double shadow = 0.03;          ///< gain over that of a larger cause of the same equation
-  double twin_shadow = 0.1;      ///< the same over that of one that could stand for it
-  double beyond_form = 0.4;      ///< share of that gain that no error in the larger's form explains
-  double apart = 300.0;          ///< gain in a shadow that needs nothing to be left without it,
+  double net_gain = 45.0;         ///< least net gain of a cause
+  double named_gain = 200.0;      ///< least net gain of a cause that is named
+  double size = 0.008;            ///< least size of a cause, share of the largest torque
+  double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
+  double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
+  double remainder = 60.0;        ///< statistic of a coordinate that says something is left
+  double remainder_share = 0.1;   ///< and the share of the residual it has to order
+  double doubtless = 300.0;       ///< where nothing is named, this statistic
+  double doubtless_share = 0.05;  ///< and this share say so, too
+  double shadow = 0.03;           ///< gain over that of a larger cause of the same equation
+  double twin_shadow = 0.1;       ///< the same over that of one that could stand for it
+  double beyond_form = 0.4;  ///< share of that gain that no error in the larger's form explains
+  double apart = 300.0;      ///< gain in a shadow that needs nothing to be left without it,
   double apart_from_form = 0.55;  ///< with this share
   double explained = 0.75;        ///< share of the misfit that the causes have to remove
   double half = 0.5;              ///< the same of the whole sum of squares, where noise is unsure

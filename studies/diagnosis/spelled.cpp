@@ -17,7 +17,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kLargestChiSquare = 1200.0;  // beyond it the probability is no number above 0
 constexpr std::size_t kMostAlternatives = 2;
 constexpr Index kSeriesPoints = 400;
 
@@ -127,6 +126,11 @@ std::string why_immaterial(const Trial& trial, const Limits& limits) {
 
 }  // namespace
 
+double p_value(double chi_square, int parameters) {
+  constexpr double kLargest = 1200.0;  // beyond it the probability is no number above 0
+  return boost::math::gamma_q(0.5 * parameters, 0.5 * std::min(chi_square, kLargest));
+}
+
 std::string baseline_in_words(const Frame& frame) {
   std::string words = frame.travels ? "f(angle) free, Coulomb and viscous friction"
                                     : "f, g, h full trajectory, f and g odd and rising";
@@ -147,8 +151,7 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.parameters =
         parameters_of(a.trial, frame, s.final.fit.model.coefficients[s.immaterial.size() + i]);
     cause.alternatives = ids_of(a.rivals, kMostAlternatives);
-    cause.evidence.score_p_value = boost::math::gamma_q(
-        0.5 * a.trial.parameters, 0.5 * std::min(a.trial.gain, kLargestChiSquare));
+    cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;
     cause.evidence.holdout_rmse_ratio = proof.cause_ratio[i];
     cause.evidence.ablation_ratio = 1.0 / proof.cause_ratio[i];

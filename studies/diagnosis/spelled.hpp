@@ -5,6 +5,9 @@
 
 namespace flexspline::studies {
 
+/// Probability that noise alone gains that much by so many parameters.
+double p_value(double chi_square, int parameters);
+
 /// The parts of a diagnosis that a person reads, from the numbers of the search.
 std::string baseline_in_words(const Frame& frame);
 std::vector<Cause> spelled_causes(const Frame& frame, const Selection& selection,

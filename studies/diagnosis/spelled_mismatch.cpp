@@ -25,13 +25,6 @@ bool listed(const std::vector<Mismatch>& list, std::string_view coordinate) {
   return std::ranges::any_of(list, [&](const Mismatch& m) { return m.coordinate == coordinate; });
 }
 
-Equation first_equation(const Frame& frame, const CauseForm& form) {
-  for (Equation e : form.at) {
-    if (frame.has(e)) return e;
-  }
-  return form.at.front();
-}
-
 // What a cause too small for a name takes away, where it is largest: the baseline's residual has
 // it no more.
 Mismatch mismatch_of(const Frame& frame, const Selection& s, const Accepted& small) {

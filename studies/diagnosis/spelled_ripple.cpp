@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <boost/math/special_functions/gamma.hpp>
 
 #include "diagnosis/ripple.hpp"
 #include "diagnosis/spelled.hpp"
@@ -11,7 +10,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr std::string_view kCoordinate = "motor_angle";
-constexpr double kLargestChiSquare = 1400.0;
 
 std::string in_words(const Frame& frame, const Ripple& ripple) {
   return fmt::format(
@@ -62,9 +60,9 @@ Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleProof& proo
   cause.parameters = {{"order", name.order, kNotComputed, "1"},
                       {"amplitude", ripple.amplitude, kNotComputed, "Nm"}};
   cause.alternatives = name.others;
+  constexpr int kEach = 4;  // sine and cosine, both ways
   cause.evidence.score_p_value =
-      boost::math::gamma_q(2.0 * static_cast<double>(proof.recordings.size()),
-                           0.5 * std::min(proof.statistic, kLargestChiSquare));
+      p_value(proof.statistic, kEach * static_cast<int>(proof.recordings.size()));
   cause.evidence.delta_bic = -ripple.statistic;
   cause.evidence.holdout_rmse_ratio = proof.ratio;
   cause.evidence.ablation_ratio = 1.0 / proof.ratio;

@@ -28,6 +28,7 @@ double left_of(const std::string& effect, Rig rig) {
   return left.empty() ? kNotComputed : left[left.size() / 2];
 }
 
+// A twentieth, and what the middle of five benches strays from that of all.
 TEST(ContainedEffects, AreTakenUpByTheirBaselines) {
   for (const ContainedEffect& row : contained_effects()) {
     for (const Rig rig : row.rigs) {

@@ -145,8 +145,8 @@ TEST(Explanation, WhatStandsOutIsLeftWhereNothingIsNamed) {
     if (!beside_a_cause) s.accepted.clear();
     return stands_out(s, limits);
   };
-  const double statistic = 10.0 * limits.remainder;
-  const double share = 0.7 * limits.remainder_share;
+  const double statistic = 2.0 * limits.doubtless;
+  const double share = 1.4 * limits.doubtless_share;
   EXPECT_TRUE(out(statistic, share));
   EXPECT_FALSE(out(0.3 * statistic, share)) << "not sure enough for so little";
   EXPECT_FALSE(out(statistic, 0.5 * share)) << "next to nothing";

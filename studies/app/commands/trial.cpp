@@ -28,7 +28,8 @@ std::string summary_of(const TrialScores& scores) {
   text += rate_line(scores, "single_top", "one effect, named first");
   text += rate_line(scores, "single_exact", "one effect, named exactly");
   text += rate_line(scores, "pair_all", "two effects, both named");
-  text += rate_line(scores, "unknown_ok", "outside the catalogue, not named");
+  text += rate_line(scores, "unknown_unnamed", "outside the catalogue, not named");
+  text += rate_line(scores, "unknown_ok", "the same, and called unexplained");
   text += rate_line(scores, "contained_ok", "contained in the baseline, no false name");
   text += rate_line(scores, "coord_ok", "right coordinate among three");
   text += rate_line(scores, "false_name", "cases with a false name");
