@@ -134,7 +134,10 @@ void spell(const std::vector<std::string>& ids, std::string& text) {
 void spell_effects(DiagnosisView& view) {
   std::vector<std::string> ids;
   for (const ShownCandidate& one : view.tried) ids.push_back(one.effect);
-  for (const ShownCause& one : view.causes) ids.push_back(one.effect);
+  for (const ShownCause& one : view.causes) {
+    ids.push_back(one.effect);
+    ids.insert(ids.end(), one.alternatives.begin(), one.alternatives.end());
+  }
   for (const ShownConfusable& one : view.confusable) ids.push_back(one.effect);
   if (view.next) ids.insert(ids.end(), view.next->separates.begin(), view.next->separates.end());
   std::erase_if(ids, [](const std::string& id) { return id.find('_') == std::string::npos; });

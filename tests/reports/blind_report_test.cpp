@@ -132,6 +132,17 @@ TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
   EXPECT_EQ(figure_of(folder, "mismatch")["frames"][0]["panels"][0]["series"].size(), 2u);
 }
 
+TEST(DiagnosisReport, SpellsAlternativesThatWereNotTriedAsWords) {
+  const StudyFolder folder("diagnosis_fixture");
+  change(folder, "diagnosis.json", [](ordered_json& json) {
+    json["causes"][0]["alternatives"] = {"motor_torque_ripple"};
+    json["says"] = "it could be motor_torque_ripple";
+  });
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_TRUE(
+      contains(folder.text("index.html"), "<p class=\"verdict\">It could be motor torque ripple."));
+}
+
 TEST(DiagnosisReport, HighlightsAStretchThatSeveralMismatchesShareOnce) {
   const StudyFolder folder("diagnosis_fixture");
   change(folder, "diagnosis.json", [](ordered_json& json) {
@@ -196,8 +207,9 @@ TEST(TrialReport, ShowsScoresConfusionAndEveryCase) {
   const std::string markup = markup_of(folder.text("report/index.html"));
   EXPECT_TRUE(contains(markup, "called adequate in 15 of 15 (95 %: 78.2 to 100 %)"));
   EXPECT_TRUE(contains(markup, "2 of 4 answers are right in full."));
-  EXPECT_TRUE(contains(folder.text("tables/trial-wrong.csv"),
-                       "case-0002,locked,viscoelastic creep,3.0,1.8,explained: presliding hysteresis"));
+  EXPECT_TRUE(
+      contains(folder.text("tables/trial-wrong.csv"),
+               "case-0002,locked,viscoelastic creep,3.0,1.8,explained: presliding hysteresis"));
   EXPECT_FALSE(contains(markup, "<img"));
 }
 
