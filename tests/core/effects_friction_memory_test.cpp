@@ -103,5 +103,50 @@ TEST(GmsFriction, LagsBehindTheSpeed) {
   }
 }
 
+/// The same path under torques that go evenly from one value to another.
+std::vector<Instant<double>> under_load(std::vector<Instant<double>> path, double from, double to) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    path[i].transmitted_torque =
+        from + (to - from) * static_cast<double>(i) / static_cast<double>(path.size() - 1);
+    path[i].gear_ratio = 1.0;
+  }
+  return path;
+}
+
+// Coefficient, yield, width of the magnitude.
+const std::vector<double> kLoaded = {0.06, 1.0 / 64.0, 1e-9, 0.02, 5.0 / 64.0, 1e-9};
+
+TEST(PreslidingLoadFriction, IsMaxwellSlipUnderAConstantLoad) {
+  const auto path = under_load(motor_path({0.0, 0.125, -0.0625, 0.03125, -0.25}), -200.0, -200.0);
+  const auto friction = along("presliding_load_friction", kLoaded, path);
+  const auto stops =
+      along("presliding_hysteresis",
+            {0.06 * 200.0 * 64.0, 1.0 / 64.0, 0.02 * 200.0 * 12.8, 5.0 / 64.0}, path);
+  for (std::size_t i = 0; i < path.size(); ++i) EXPECT_NEAR(friction[i], stops[i], 1e-6);
+}
+
+TEST(PreslidingLoadFriction, SlidesAsLoadDependentFriction) {
+  const auto path = under_load(motor_path({0.0, 0.5}), 20.0, 220.0);
+  const auto memory = along("presliding_load_friction", {0.06, 1.0 / 64.0, 1e-9}, path);
+  const auto sign = along("load_dependent_friction", {0.06, 1e-9, 1e-9}, path);
+  for (std::size_t i = 17; i + 1 < path.size(); ++i) EXPECT_NEAR(memory[i], sign[i], 1e-7) << i;
+}
+
+// Wound at a load T1 and let go at T2 an element returns mu r (T2 - T1)/2 more than it took.
+TEST(PreslidingLoadFriction, GivesBackMoreOnlyForWhatTheLoadPutIn) {
+  const double yield = 1.0 / 64.0;
+  const auto out = under_load(motor_path({0.0, yield}), 50.0, 50.0);
+  auto back = under_load(motor_path({yield, 0.0}), 200.0, 200.0);
+  auto path = out;
+  path.insert(path.end(), back.begin(), back.end());
+  const auto torque = along("presliding_load_friction", {0.06, yield, 1e-9}, path);
+  double work = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double step = path[i].motor_angle - path[i - 1].motor_angle;
+    work += 0.5 * (torque[i] + torque[i - 1]) * step;
+  }
+  EXPECT_NEAR(work, -0.06 * yield * 150.0 / 2.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace flexspline

@@ -17,6 +17,9 @@ const std::set<std::string_view> kOnTwoShafts = {"kinematic_error", "output_kine
                                                  "stiffness_ripple"};
 // A constant in the torsion is not silent at rest, but returns all that it takes.
 const std::set<std::string_view> kDatum = {"torsion_zero"};
+// Springs of friction that the load stiffens while they are wound
+// (PreslidingLoadFriction.GivesBackMoreOnlyForWhatTheLoadPutIn).
+const std::set<std::string_view> kStiffenedByLoad = {"presliding_load_friction"};
 // What is wrong with a motor that drives does work on it.
 const std::set<std::string_view> kDriving = {"current_lag", "motor_torque_offset",
                                              "motor_torque_ripple", "torque_constant_error",
@@ -31,6 +34,7 @@ TEST(Passivity, IsAskedOfEveryEffectThatIsNoInstrumentAndDoesNotDrive) {
   known.insert(kBesideFriction.begin(), kBesideFriction.end());
   known.insert(kOnTwoShafts.begin(), kOnTwoShafts.end());
   known.insert(kDatum.begin(), kDatum.end());
+  known.insert(kStiffenedByLoad.begin(), kStiffenedByLoad.end());
   EXPECT_EQ(active, known);
 }
 
