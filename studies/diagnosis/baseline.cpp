@@ -62,15 +62,27 @@ ArrayXd modulation(const Frame& frame, std::span<const double> shape) {
   return (shape[0] * x2 + shape[1] * x2.square()).max(-2.0).min(2.0).exp();
 }
 
+MatrixXd elastic_columns(const Frame& frame, const ArrayXd& x) {
+  if (frame.plain_spring) {
+    MatrixXd columns(x.size(), 2);
+    columns << x.matrix(), x.cube().matrix();
+    return columns;
+  }
+  const IntegratedBasis basis(even_knots(kElasticKnots));
+  MatrixXd columns(x.size(), static_cast<Index>(basis.size()));
+  odd_columns(basis, x, columns);
+  return columns;
+}
+
 BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) {
-  const IntegratedBasis elastic(even_knots(kElasticKnots));
+  const MatrixXd elastic = elastic_columns(frame, wound(frame, shape));
   const IntegratedBasis dissipative(rate_knots(frame));
   const bool offset = frame.rig == Rig::specimen;
-  const Index f = static_cast<Index>(elastic.size());
+  const Index f = elastic.cols();
   const Index g = static_cast<Index>(dissipative.size());
   BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
                     Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g};
-  odd_columns(elastic, wound(frame, shape), c.columns.leftCols(f));
+  c.columns.leftCols(f) = elastic;
   odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
               c.columns.middleCols(f, g));
   if (offset) {

@@ -17,10 +17,11 @@ bool marked(const Frame& frame) {
 
 // What a law is fitted to has to reach as far as what it is judged on.
 bool reaches_furthest(const Frame& frame, const Segment& s) {
+  ArrayXd others = frame.usable;
+  others.segment(s.first, s.count).setZero();
   const auto furthest = [&](const ArrayXd& x) {
     const ArrayXd size = x.abs() * frame.usable;
-    const double most = size.maxCoeff();
-    return most > 0.0 && size.segment(s.first, s.count).maxCoeff() >= most;
+    return size.segment(s.first, s.count).maxCoeff() > kReach * (size * others).maxCoeff();
   };
   return furthest(frame.torsion) || furthest(frame.torsion_rate) || furthest(frame.motor_speed) ||
          furthest(frame.torque) || s.first == 0;

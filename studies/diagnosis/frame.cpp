@@ -218,8 +218,11 @@ class FrameMaker {
       f.torsion.segment(s.first, s.count) -= zeros[i];
     }
     f.load_angle = f.motor_angle = f.torsion;
+    f.own_zeros = true;
     f.notes.push_back(
-        "the zeros of the recordings differ: each is counted from its mean torsion at zero torque");
+        "the zeros of the recordings differ: each, held out or not, is counted from where the "
+        "model "
+        "fits it best, one number a recording");
   }
 
   // A servo that holds still takes any drive up to its breakaway.

@@ -31,6 +31,7 @@ Frame moved(const Frame& seen, ArrayXd torsion, ArrayXd rate) {
   Frame frame;
   frame.rig = seen.rig;
   frame.travels = seen.travels;
+  frame.plain_spring = seen.plain_spring;
   frame.torsion_range = seen.torsion_range;
   frame.rate_range = seen.rate_range;
   frame.slow_rate = seen.slow_rate;
@@ -87,13 +88,17 @@ VectorXd nonnegative_fit(const MatrixXd& columns, const VectorXd& target) {
   return estimators::solve_linear(problem, {}).b;
 }
 
+ArrayXd elastic_torque(const Frame& seen, const VectorXd& own, const ArrayXd& torsion) {
+  const auto c = baseline_columns(moved(seen, torsion, ArrayXd::Zero(torsion.size())),
+                                  Equation::torsion, kUnshifted);
+  return c.columns.leftCols(c.elastic) * own.head(c.elastic);
+}
+
 FittedLaw elastic_law(const Frame& seen, const VectorXd& own, double range,
                       const std::function<double(double)>& sees) {
   const ArrayXd phi = points_on(range);
   const ArrayXd felt = sees ? ArrayXd(phi.unaryExpr(sees)) : phi;
-  const auto c =
-      baseline_columns(moved(seen, felt, ArrayXd::Zero(phi.size())), Equation::torsion, kUnshifted);
-  const ArrayXd torque = (c.columns.leftCols(c.elastic) * own.head(c.elastic)).array();
+  const ArrayXd torque = elastic_torque(seen, own, felt);
   return monotone_spline(range, even_knots(sees ? kKnotsOfAGap : kElasticKnots), phi, torque);
 }
 

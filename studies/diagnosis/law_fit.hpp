@@ -20,6 +20,10 @@ struct FittedLaw {
 /// The b >= 0 with the smallest ||columns b - target||.
 Eigen::VectorXd nonnegative_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target);
 
+/// f of the baseline with these own coefficients, of torsions from its zero; Nm.
+Eigen::ArrayXd elastic_torque(const Frame& seen, const Eigen::VectorXd& own,
+                              const Eigen::ArrayXd& torsion);
+
 /// f of a gear over the torsion up to a range, as an odd monotone spline; sees: what of the torsion
 /// it gets, empty for all.
 FittedLaw elastic_law(const Frame& seen, const Eigen::VectorXd& own, double range,

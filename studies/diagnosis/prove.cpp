@@ -18,10 +18,11 @@ constexpr int kResamples = 400;
 constexpr Index kBlocksOfRecording = 8;
 
 // The cause that does worst on recordings held out.
-std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
+std::optional<std::size_t> unconfirmed(const Proof& proof, double most) {
   std::optional<std::size_t> worst;
+
   for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
-    if (!(proof.cause_ratio[i] >= limits.held_out)) continue;
+    if (!(proof.cause_ratio[i] >= most)) continue;
     if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;
   }
   return worst;
@@ -246,11 +247,14 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
     auto proof = prove(frame, s);
     if (!proof) return proof;
-    const auto worst = unconfirmed(*proof, limits);
+    const auto worst = unconfirmed(*proof, s.remainder ? limits.held_out_of_more : limits.held_out);
     if (!worst) return proof;
     s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
     const auto left_out =
-        leave_out(frame, limits, s, *worst, "it does not lower the error on recordings held out");
+        leave_out(frame, limits, s, *worst,
+                  proof->cause_ratio[*worst] < limits.held_out
+                      ? "it hardly lowers the error on recordings held out, and something is left"
+                      : "it does not lower the error on recordings held out");
     if (!left_out) return tl::unexpected(left_out.error());
   }
 }

@@ -121,8 +121,36 @@ Result<void> withdraw(const Frame& frame, const Limits& limits, Selection& s) {
   return fit_again(frame, s);
 }
 
+bool too_many(const Selection& s, const Limits& limits) {
+  const bool remains = !s.after.empty() && is_left(s.after.front(), limits);
+  return s.accepted.size() > limits.causes - (remains ? 1 : 0);
+}
+
+// Where more causes are left than may stand together, the least go while the others explain nearly
+// as much.
+Result<void> keep_the_main(const Frame& frame, const Limits& limits, Selection& s) {
+  const double removed = s.removed;
+  Selection fewer = s;
+  while (too_many(fewer, limits)) {
+    const auto least = std::ranges::min_element(fewer.accepted, {},
+                                                [](const Accepted& a) { return a.trial.gain; });
+    const auto taken =
+        take_out(frame, fewer, static_cast<std::size_t>(least - fewer.accepted.begin()),
+                 "small beside the others, and too many names stand together");
+    if (!taken) return taken;
+    const auto fitted = fit_again(frame, fewer);
+    if (!fitted) return fitted;
+    judge(frame, fewer);
+    if (fewer.removed < limits.main * removed) return {};
+  }
+  s = std::move(fewer);
+  return {};
+}
+
 Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
   judge(frame, s);
+  const auto kept = keep_the_main(frame, limits, s);
+  if (!kept) return kept;
   const bool stands = s.accepted.empty() || explains_enough(frame, s, limits);
   if (!stands) {
     const auto done = withdraw(frame, limits, s);

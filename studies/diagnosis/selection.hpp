@@ -26,12 +26,14 @@ struct Limits {
   double beyond_form = 0.4;  ///< share of that gain that no error in the larger's form explains
   double apart = 300.0;      ///< gain in a shadow that needs nothing to be left without it,
   double apart_from_form = 0.55;  ///< with this share
-  double explained = 0.75;        ///< share of the misfit that the causes have to remove
-  double half = 0.5;              ///< the same of the whole sum of squares, where noise is unsure
-  double misfit = 1.5;            ///< mean square over noise that counts as explained
-  double unordered = 2.5;         ///< and that is something left, whatever orders it
-  double unproved = 0.25;  ///< share of the misfit that an unproved cause cannot take quietly
-  double held_out = 1.0;   ///< error on recordings held out with a cause over without it
+  double main = 0.95;       ///< share of it that the main ones of too many causes have to remove
+  double explained = 0.75;  ///< share of the misfit that the causes have to remove
+  double half = 0.5;        ///< the same of the whole sum of squares, where noise is unsure
+  double misfit = 1.5;      ///< mean square over noise that counts as explained
+  double unordered = 2.5;   ///< and that is something left, whatever orders it
+  double unproved = 0.25;   ///< share of the misfit that an unproved cause cannot take quietly
+  double held_out = 1.0;    ///< error on recordings held out with a cause over without it
+  double held_out_of_more = 0.97;  ///< the same where something is left, which it may stand for
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in
                            ///< for something without a name
   double ripple_share = 0.25;  ///< least share of the fast changes in steady strokes that is named

@@ -66,6 +66,19 @@ TEST(HeldOut, WithoutMarksOneThatLiesWithinTheReachOfOthers) {
   EXPECT_EQ(held.sum(), 1500.0);
 }
 
+// A law that is fitted to 0.97 of a range is not extrapolated over the rest.
+TEST(HeldOut, OneThatOthersReachNearlyMayBeItToo) {
+  Frame f = three_recordings();
+  for (ArrayXd* x : {&f.torsion, &f.torsion_rate, &f.motor_speed, &f.torque}) {
+    *x = ArrayXd::Ones(6000);
+    x->segment(3000, 1500) *= 1.03;
+    x->tail(1500) *= 1.2;
+  }
+  const ArrayXd held = held_out(f);
+  EXPECT_EQ(held.segment(3000, 1500).minCoeff(), 1.0);
+  EXPECT_EQ(held.sum(), 1500.0) << "the third reaches too far";
+}
+
 // Nine recordings, the first of which reaches furthest in everything.
 TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
   Frame f = closed_form_frame(9000);

@@ -1,0 +1,66 @@
+#include "diagnosis/finding.hpp"
+
+#include <fmt/format.h>
+
+#include "diagnosis/experiment.hpp"
+#include "diagnosis/zeros.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Progress = std::function<void(double, std::string_view)>;
+
+// One loop proves no cause: there is nothing to hold it against.
+Result<void> leave_out_unproved(const Frame& frame, const Limits& limits, Selection& selection) {
+  while (one_loop(frame) && !selection.accepted.empty()) {
+    const auto left_out = leave_out(frame, limits, selection, selection.accepted.size() - 1,
+                                    "one loop cannot prove it");
+    if (!left_out) return left_out;
+  }
+  return {};
+}
+
+// With every recording counted from where the causes fit it best.
+Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& progress) {
+  auto selection = select_causes(frame, limits, progress);
+  if (!selection || !frame.own_zeros) return selection;
+  auto moved = with_fitted_zeros(frame, selection->final);
+  if (!moved) return tl::unexpected(moved.error());
+  frame = std::move(*moved);
+  return select_causes(frame, limits, progress);
+}
+
+Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress) {
+  auto selection = aligned(frame, limits, progress);
+  if (!selection) return tl::unexpected(selection.error());
+  if (progress) progress(0.75, "proving on recordings held out");
+  const auto proved = leave_out_unproved(frame, limits, *selection);
+  if (!proved) return tl::unexpected(proved.error());
+  auto proof = confirm(frame, limits, *selection);
+  if (!proof) return tl::unexpected(proof.error());
+  return Finding{std::move(frame), std::move(*selection), std::move(*proof)};
+}
+
+std::string gap_in_words(const Finding& spline, const Finding& gap) {
+  const HoldoutProof& h = spline.proof.holdout;
+  return fmt::format(
+      "a spline for f would be flat in its middle ({:.2g} of the mean slope); a line, a cubic and "
+      "a "
+      "gap predict the recordings held out as well: {:.3g} Nm against {:.3g} (95 %: to {:.3g})",
+      softness(spline.frame, spline.selection), gap.proof.holdout.rmse_after, h.rmse_after,
+      h.ci95_upper * h.rmse_before);
+}
+
+}  // namespace
+
+Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& progress) {
+  auto spline = found_in(std::move(frame), limits, progress);
+  if (!spline || !may_hide_a_gap(spline->frame, spline->selection)) return spline;
+  auto gap = found_in(with_plain_spring(spline->frame), limits, progress);
+  if (!gap) return gap;
+  if (!tells_a_gap(gap->selection, spline->proof, gap->proof)) return spline;
+  gap->frame.notes.push_back(gap_in_words(*spline, *gap));
+  return gap;
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "diagnosis/gap_in_spring.hpp"
+
+namespace flexspline::studies {
+
+/// What was found in a frame, and proved.
+struct Finding {
+  Frame frame;  ///< the motion counted as the model fits it best, with notes
+  Selection selection;
+  Proof proof;
+};
+
+/// Causes beside a baseline with a spline for f, proved on recordings held out; where the spline is
+/// so soft in its middle that it may hide a gap, beside a plain spring too, and the better of both.
+/// Errors: those of the fits.
+Result<Finding> find_causes(Frame frame, const Limits& limits,
+                            const std::function<void(double, std::string_view)>& progress);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,118 @@
+// Friction that grows with the load and remembers its way; mountings whose zeros differ; a gap in
+// the freedom of f.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/gap_in_spring.hpp"
+#include "diagnosis/zeros.hpp"
+#include "diagnosis_checks.hpp"
+#include "mounted_gear.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+TEST(LoadFriction, IsNamedThoughItsSignRemembersTheWay) {
+  MountedGear gear;
+  gear.load_share = 0.2;
+  const Diagnosis d = diagnosed(gear.recordings());
+  EXPECT_THAT(names(d),
+              testing::UnorderedElementsAre("presliding_hysteresis", "load_dependent_friction"))
+      << d.says;
+  const auto load = std::ranges::find(d.causes, "load_dependent_friction", &Cause::effect);
+  ASSERT_NE(load, d.causes.end());
+  double sum = 0.0;
+  for (const CauseParameter& p : load->parameters) sum += p.value;
+  EXPECT_NEAR(sum, gear.load_share, 0.1 * gear.load_share);
+}
+
+TEST(LoadFriction, IsNotNamedWhereFrictionDoesNotGrow) {
+  EXPECT_THAT(names(diagnosed(MountedGear{}.recordings())),
+              testing::ElementsAre("presliding_hysteresis"));
+}
+
+Result<Frame> frame_of(const MountedGear& gear) { return make_frame(gear.recordings(), 16000); }
+
+double mean_torsion(const Frame& f, std::size_t i) {
+  return f.torsion.segment(f.segments[i].first, f.segments[i].count).mean();
+}
+
+// Every recording is some whole cycles about its zero, so its mean torsion is where that ends up.
+TEST(Zeros, OfEveryMountingAreFoundAgain) {
+  MountedGear gear;
+  gear.zeros = {0.0, 0.013, -0.02};
+  const auto frame = frame_of(gear);
+  ASSERT_TRUE(frame) << frame.error().message();
+  ASSERT_TRUE(frame->own_zeros);
+  const auto selection = select_causes(*frame, Limits{}, {});
+  ASSERT_TRUE(selection) << selection.error().message();
+  Frame off = *frame;
+  for (std::size_t i = 0; i < off.segments.size(); ++i) {
+    const Segment& s = off.segments[i];
+    off.torsion.segment(s.first, s.count) += 2e-4 * (i % 3 == 0 ? 1.0 : -1.0);
+  }
+  const auto fitted = with_fitted_zeros(off, selection->final);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  const double common = mean_torsion(*fitted, 0);
+  for (std::size_t i = 0; i < off.segments.size(); ++i) {
+    EXPECT_NEAR(mean_torsion(*fitted, i), common, 1e-5) << i;
+  }
+}
+
+TEST(Zeros, OfOneMountingAreNotTakenApart) {
+  const auto frame = frame_of(MountedGear{});
+  ASSERT_TRUE(frame) << frame.error().message();
+  EXPECT_FALSE(frame->own_zeros);
+}
+
+Selection with_spline(const MountedGear& gear) {
+  const auto frame = frame_of(gear);
+  EXPECT_TRUE(frame) << frame.error().message();
+  Selection s;
+  const auto baseline = fit_baseline(*frame);
+  EXPECT_TRUE(baseline) << baseline.error().message();
+  s.baseline = s.final = *baseline;
+  return s;
+}
+
+TEST(GapInSpring, MakesItSoftInItsMiddle) {
+  MountedGear gear;
+  gear.friction = 0.0;
+  EXPECT_NEAR(softness(*frame_of(gear), with_spline(gear)), 1.0, 0.01);
+  EXPECT_FALSE(may_hide_a_gap(*frame_of(gear), with_spline(gear)));
+  gear.half_gap = 4e-3;
+  EXPECT_LT(softness(*frame_of(gear), with_spline(gear)), 0.1);
+  EXPECT_TRUE(may_hide_a_gap(*frame_of(gear), with_spline(gear)));
+}
+
+TEST(GapInSpring, LeavesALineAndACubic) {
+  MountedGear gear;
+  gear.friction = 0.0;
+  const auto frame = frame_of(gear);
+  ASSERT_TRUE(frame) << frame.error().message();
+  const auto plain = fit_baseline(with_plain_spring(*frame));
+  ASSERT_TRUE(plain) << plain.error().message();
+  const auto& f = plain->fit.model.own[index_of(Equation::torsion)];
+  EXPECT_NEAR(f[0], gear.stiffness * frame->torsion_range, 0.01 * f[0]);
+  EXPECT_LT(f[1], 0.01 * f[0]);
+}
+
+TEST(GapInSpring, IsToldWherePlainSpringAndGapPredictAsWell) {
+  const auto row = std::ranges::find(causes(), std::string_view("backlash"), &CauseRow::id);
+  Accepted gap;
+  gap.trial.cause = {&*row, &row->forms.front(), {}};
+  Selection named;
+  named.accepted = {gap};
+  Proof spline;
+  spline.holdout.rmse_before = 4.0;
+  spline.holdout.rmse_after = 1.0;
+  spline.holdout.ci95_upper = 0.3;
+  Proof plain;
+  plain.holdout.rmse_after = 1.19;
+  EXPECT_TRUE(tells_a_gap(named, spline, plain));
+  EXPECT_FALSE(tells_a_gap(Selection{}, spline, plain)) << "no gap is named";
+  plain.holdout.rmse_after = 1.21;
+  EXPECT_FALSE(tells_a_gap(named, spline, plain)) << "it predicts worse";
+}
+
+}  // namespace
+}  // namespace flexspline::studies
