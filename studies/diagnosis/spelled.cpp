@@ -124,6 +124,12 @@ std::string why_immaterial(const Trial& trial, const Limits& limits) {
                      trial.net_gain);
 }
 
+// One; one and another; one, another and a third.
+std::string listed(const std::vector<std::string>& names) {
+  if (names.size() < 2) return names.empty() ? "" : names.front();
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
 }  // namespace
 
 double p_value(double chi_square, int parameters) {
@@ -265,7 +271,7 @@ std::string spelled_verdict(const Selection& s, const Limits& limits, const Diag
     }
     names.push_back(std::move(name));
   }
-  const std::string named = fmt::format("{}", fmt::join(names, " and "));
+  const std::string named = listed(names);
   switch (d.verdict) {
     case Verdict::adequate:
       return "Nothing was left out: the baseline explains the recordings to within their noise.";
