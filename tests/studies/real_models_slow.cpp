@@ -108,6 +108,18 @@ TEST_F(RealModels, PlayOfTheCycloidalGear) {
   EXPECT_LT(cell("cycloidal-onyx", "play-load").holdout, 1.30);
 }
 
+// Friction that grows with the load and remembers its way passes them without play, on ramps and a
+// mounting that were held out, and neither play nor a dead zone adds to it.
+TEST_F(RealModels, LoadFrictionWithMemory) {
+  const double gear = cell("cycloidal-onyx", "loaded").holdout;
+  EXPECT_LT(gear, 1.10);
+  EXPECT_GT(cell("cycloidal-onyx", "loaded-gap").holdout, 0.9 * gear);
+  EXPECT_LT(cell("preload-6", "loaded").holdout, 1.34);
+  EXPECT_LT(cell("preload-6-all", "loaded").train, 0.95);
+  EXPECT_LT(cell("preload-12", "loaded").holdout, 1.29);
+  EXPECT_LT(cell("preload-12-all", "loaded").train, 1.00);
+}
+
 TEST_F(RealModels, FrictionDamper) {
   const Pooled lugre = cell("band-damper", "lugre");
   EXPECT_LT(lugre.train, 3031.0);
