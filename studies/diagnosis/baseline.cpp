@@ -17,6 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kElasticKnots = 7;
+constexpr double kLeastSlope = 0.6;  // of a firm spring, over its mean one
 constexpr int kDissipativeKnots = 11;
 constexpr std::size_t kTravelIntervals = 24;
 constexpr Index kDryWidths = 7;
@@ -62,15 +63,18 @@ ArrayXd modulation(const Frame& frame, std::span<const double> shape) {
   return (shape[0] * x2 + shape[1] * x2.square()).max(-2.0).min(2.0).exp();
 }
 
+// f = sum_i c_i I_i(x); of a firm spring sum_i c_i (I_i(x) + e I_i(1) x), whose slope with c_i >= 0
+// is nowhere below e/(1 + e) of its mean.
 MatrixXd elastic_columns(const Frame& frame, const ArrayXd& x) {
-  if (frame.plain_spring) {
-    MatrixXd columns(x.size(), 2);
-    columns << x.matrix(), x.cube().matrix();
-    return columns;
-  }
   const IntegratedBasis basis(even_knots(kElasticKnots));
   MatrixXd columns(x.size(), static_cast<Index>(basis.size()));
   odd_columns(basis, x, columns);
+  if (!frame.firm_spring) return columns;
+  std::vector<double> whole(basis.size());
+  basis.values(1.0, whole);
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    columns.col(static_cast<Index>(k)) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
+  }
   return columns;
 }
 

@@ -41,25 +41,25 @@ Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& prog
   return Finding{std::move(frame), std::move(*selection), std::move(*proof)};
 }
 
-std::string gap_in_words(const Finding& spline, const Finding& gap) {
-  const HoldoutProof& h = spline.proof.holdout;
+std::string gap_in_words(const Finding& free_f, const Finding& gap) {
+  const HoldoutProof& h = free_f.proof.holdout;
   return fmt::format(
-      "a spline for f would be flat in its middle ({:.2g} of the mean slope); a line, a cubic and "
+      "a free_f for f would be flat in its middle ({:.2g} of the mean slope); a line, a cubic and "
       "a "
       "gap predict the recordings held out as well: {:.3g} Nm against {:.3g} (95 %: to {:.3g})",
-      softness(spline.frame, spline.selection), gap.proof.holdout.rmse_after, h.rmse_after,
+      softness(free_f.frame, free_f.selection), gap.proof.holdout.rmse_after, h.rmse_after,
       h.ci95_upper * h.rmse_before);
 }
 
 }  // namespace
 
 Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& progress) {
-  auto spline = found_in(std::move(frame), limits, progress);
-  if (!spline || !may_hide_a_gap(spline->frame, spline->selection)) return spline;
-  auto gap = found_in(with_plain_spring(spline->frame), limits, progress);
+  auto free_f = found_in(std::move(frame), limits, progress);
+  if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection)) return free_f;
+  auto gap = found_in(with_firm_spring(free_f->frame), limits, progress);
   if (!gap) return gap;
-  if (!tells_a_gap(gap->selection, spline->proof, gap->proof)) return spline;
-  gap->frame.notes.push_back(gap_in_words(*spline, *gap));
+  if (!tells_a_gap(gap->selection, free_f->proof, gap->proof)) return free_f;
+  gap->frame.notes.push_back(gap_in_words(*free_f, *gap));
   return gap;
 }
 

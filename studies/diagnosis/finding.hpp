@@ -11,8 +11,8 @@ struct Finding {
   Proof proof;
 };
 
-/// Causes beside a baseline with a spline for f, proved on recordings held out; where the spline is
-/// so soft in its middle that it may hide a gap, beside a plain spring too, and the better of both.
+/// Causes beside a baseline with a free f, proved on recordings held out; where that is so soft in
+/// its middle that it may hide a gap, beside a firm spring too, which stands where it tells one.
 /// Errors: those of the fits.
 Result<Finding> find_causes(Frame frame, const Limits& limits,
                             const std::function<void(double, std::string_view)>& progress);

@@ -32,10 +32,10 @@ struct Frame {
   double ratio = 1.0;
   double motor_inertia = 0.0;
   double load_inertia = 0.0;
-  bool travels = false;       ///< an angle that travels: f is a free function of it
-  bool own_zeros = false;     ///< every recording has a zero of its own
-  bool plain_spring = false;  ///< f is a line and a cubic instead of a spline
-  double torque_lag = 0.0;  ///< time constant of the filter behind which the torque is recorded, s
+  bool travels = false;      ///< an angle that travels: f is a free function of it
+  bool own_zeros = false;    ///< every recording has a zero of its own
+  bool firm_spring = false;  ///< f is nowhere much softer than in the mean
+  double torque_lag = 0.0;   ///< time constant of the filter behind which the torque is recorded, s
   std::vector<Equation> equations;
   std::vector<std::string> notes;  ///< what could not be judged, and why
   std::vector<Segment> segments;

@@ -8,8 +8,7 @@ namespace flexspline::studies {
 namespace {
 
 constexpr double kMiddle = 0.1;
-// A strain-wave gear of size 45 starts at 0.58 of its last stiffness (soft_windup).
-constexpr double kSoft = 0.25;
+constexpr double kSoft = 0.25;  // softer than any spring of a gear that a catalogue states
 
 bool names_a_gap(const Selection& s) {
   return std::ranges::any_of(s.accepted,
@@ -18,8 +17,8 @@ bool names_a_gap(const Selection& s) {
 
 }  // namespace
 
-Frame with_plain_spring(Frame frame) {
-  frame.plain_spring = true;
+Frame with_firm_spring(Frame frame) {
+  frame.firm_spring = true;
   return frame;
 }
 
@@ -35,10 +34,9 @@ bool may_hide_a_gap(const Frame& frame, const Selection& s) {
   return !names_a_gap(s) && softness(frame, s) < kSoft;
 }
 
-bool tells_a_gap(const Selection& plain, const Proof& with_spline, const Proof& with_gap) {
-  const HoldoutProof& spline = with_spline.holdout;
-  return names_a_gap(plain) &&
-         with_gap.holdout.rmse_after <= spline.ci95_upper * spline.rmse_before;
+bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap) {
+  const HoldoutProof& free = with_free_f.holdout;
+  return names_a_gap(firm) && with_gap.holdout.rmse_after <= free.ci95_upper * free.rmse_before;
 }
 
 }  // namespace flexspline::studies

@@ -4,9 +4,9 @@
 
 namespace flexspline::studies {
 
-/// The frame with a plain spring, f = k1 x + k3 x^3 with k1, k3 >= 0, instead of a spline: beside
-/// it a gap cannot hide in the freedom of f.
-Frame with_plain_spring(Frame frame);
+/// The frame with a firm spring: f has no slope below 0.6 of its mean one (a strain-wave gear of
+/// size 45 starts at 0.58 of its last stiffness), so that a gap cannot hide in its freedom.
+Frame with_firm_spring(Frame frame);
 
 /// Slope of f through the middle tenth of the torsion range over its mean one; NaN without a
 /// torsion equation, or where the angle travels.
@@ -15,9 +15,9 @@ double softness(const Frame& frame, const Selection& selection);
 /// True where no gap is named and f is softer in its middle than springs of gears are.
 bool may_hide_a_gap(const Frame& frame, const Selection& selection);
 
-/// True where the model with a plain spring names a gap and predicts recordings held out as well as
-/// that with the spline does, for all that they can tell: its error lies within the spline's
-/// interval of 95 %. Of two such models the simpler one stands.
-bool tells_a_gap(const Selection& plain, const Proof& with_spline, const Proof& with_gap);
+/// True where the model with a firm spring names a gap and predicts recordings held out as well as
+/// that with the free one does, for all that they can tell: its error lies within the interval of
+/// 95 % of the other's. Of two such models the one stands whose spring is one.
+bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap);
 
 }  // namespace flexspline::studies

@@ -31,7 +31,7 @@ Frame moved(const Frame& seen, ArrayXd torsion, ArrayXd rate) {
   Frame frame;
   frame.rig = seen.rig;
   frame.travels = seen.travels;
-  frame.plain_spring = seen.plain_spring;
+  frame.firm_spring = seen.firm_spring;
   frame.torsion_range = seen.torsion_range;
   frame.rate_range = seen.rate_range;
   frame.slow_rate = seen.slow_rate;

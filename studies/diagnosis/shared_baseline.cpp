@@ -38,7 +38,7 @@ class Sum {
 Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape) {
   Sum sum;
   sum.add(static_cast<double>(equation) + (frame.travels ? 16.0 : 0.0) +
-          (frame.plain_spring ? 32.0 : 0.0));
+          (frame.firm_spring ? 32.0 : 0.0));
   sum.add(static_cast<double>(frame.rig));
   for (const double value : {frame.torsion_range, frame.rate_range, frame.slow_rate,
                              frame.speed_range, frame.torque_lag}) {

@@ -139,7 +139,7 @@ double p_value(double chi_square, int parameters) {
 
 std::string baseline_in_words(const Frame& frame) {
   std::string words = "f, g, h full trajectory, f and g odd and rising";
-  if (frame.plain_spring) words += ", f a line and a cubic";
+  if (frame.firm_spring) words += ", f nowhere much softer than in the mean";
   if (frame.travels) words = "f(angle) free, Coulomb and viscous friction";
   if (frame.has(Equation::load)) words += "; load inertia and drag";
   if (frame.has(Equation::motor)) words += "; motor inertia, viscous and Coulomb friction";
