@@ -44,9 +44,8 @@ Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& prog
 std::string gap_in_words(const Finding& free_f, const Finding& gap) {
   const HoldoutProof& h = free_f.proof.holdout;
   return fmt::format(
-      "a free_f for f would be flat in its middle ({:.2g} of the mean slope); a line, a cubic and "
-      "a "
-      "gap predict the recordings held out as well: {:.3g} Nm against {:.3g} (95 %: to {:.3g})",
+      "a free f would be flat in its middle ({:.2g} of the mean slope); a firm one with a gap "
+      "predicts the recordings held out as well: {:.3g} Nm against {:.3g} (95 %: to {:.3g})",
       softness(free_f.frame, free_f.selection), gap.proof.holdout.rmse_after, h.rmse_after,
       h.ci95_upper * h.rmse_before);
 }
