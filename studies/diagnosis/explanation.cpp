@@ -94,9 +94,13 @@ double worst_misfit(const Frame& frame, const Findings& findings) {
   return worst;
 }
 
-bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits) {
+bool too_many(const Selection& s, const Limits& limits) {
   const bool remains = !s.after.empty() && is_left(s.after.front(), limits);
-  if (s.accepted.size() > limits.causes - (remains ? 1 : 0)) return false;
+  return s.accepted.size() > limits.causes - (remains ? 1 : 0);
+}
+
+bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits) {
+  if (too_many(s, limits)) return false;
   const Balance b = balance_of(frame, s);
   const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
   if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;

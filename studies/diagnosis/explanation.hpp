@@ -22,6 +22,9 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits);
 /// Largest mean square over noise of an equation.
 double worst_misfit(const Frame& frame, const Findings& findings);
 
+/// True where more causes are accepted than may stand together, one less where something is left.
+bool too_many(const Selection& s, const Limits& limits);
+
 /// True where the accepted causes may stand as the explanation: they leave little that anything
 /// could order, and they remove most of the misfit, or leave no more than noise does.
 bool explains_enough(const Frame& frame, const Selection& s, const Limits& limits);

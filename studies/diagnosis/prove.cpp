@@ -20,7 +20,6 @@ constexpr Index kBlocksOfRecording = 8;
 // The cause that does worst on recordings held out.
 std::optional<std::size_t> unconfirmed(const Proof& proof, double most) {
   std::optional<std::size_t> worst;
-
   for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
     if (!(proof.cause_ratio[i] >= most)) continue;
     if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;

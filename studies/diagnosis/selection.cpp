@@ -121,14 +121,10 @@ Result<void> withdraw(const Frame& frame, const Limits& limits, Selection& s) {
   return fit_again(frame, s);
 }
 
-bool too_many(const Selection& s, const Limits& limits) {
-  const bool remains = !s.after.empty() && is_left(s.after.front(), limits);
-  return s.accepted.size() > limits.causes - (remains ? 1 : 0);
-}
-
 // Where more causes are left than may stand together, the least go while the others explain nearly
 // as much.
 Result<void> keep_the_main(const Frame& frame, const Limits& limits, Selection& s) {
+  if (!too_many(s, limits)) return {};
   const double removed = s.removed;
   Selection fewer = s;
   while (too_many(fewer, limits)) {

@@ -1,8 +1,5 @@
 #include "diagnosis/zeros.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace flexspline::studies {
 namespace {
 
