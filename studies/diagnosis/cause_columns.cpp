@@ -55,13 +55,6 @@ std::vector<double> geometric(double first, double last, int count) {
   return values;
 }
 
-double fastest(const Frame& frame) {
-  const ArrayXd& speed = frame.rig == Rig::free ? frame.load_speed : frame.torsion_rate;
-  const ArrayXd& acceleration =
-      frame.rig == Rig::free ? frame.load_acceleration : frame.torsion_acceleration;
-  return (acceleration.abs() * frame.usable).maxCoeff() / (speed.abs() * frame.usable).maxCoeff();
-}
-
 ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
   ArrayXd shifted(frame.rows());
   for (const Segment& s : frame.segments) {

@@ -34,9 +34,6 @@ Columns stop_operators(const Frame& frame, const Eigen::ArrayXd& motion,
 /// count values from first to last, even in the logarithm.
 std::vector<double> geometric(double first, double last, int count);
 
-/// Largest angular frequency of the motion: its largest acceleration over its largest speed, 1/s.
-double fastest(const Frame& frame);
-
 /// A smooth signal a delay later, in every recording: linear between rows, held beyond the ends.
 Eigen::ArrayXd later(const Frame& frame, const Eigen::ArrayXd& signal, double delay);
 

@@ -43,23 +43,21 @@ std::vector<std::vector<std::size_t>> dealt_out(const Frame& frame) {
   return hands;
 }
 
-// Where every recording reaches further than the others in something: the end of each.
+// Where every recording reaches further than the others in something: the last third of each, but
+// for what reaches further than the rest of the recordings.
 ArrayXd ends(const Frame& frame) {
   ArrayXd rows = ArrayXd::Zero(frame.rows());
   for (const Segment& s : frame.segments) {
     const Index count = s.count / 3;
     rows.segment(s.first + s.count - count, count).setOnes();
   }
+  const ArrayXd last = rows;
+  for (const ArrayXd* x :
+       {&frame.torsion, &frame.torsion_rate, &frame.motor_speed, &frame.torque}) {
+    const ArrayXd size = x->abs() * frame.usable;
+    rows *= (size <= kReach * (size * (1.0 - last)).maxCoeff()).cast<double>();
+  }
   return rows;
-}
-
-bool within_reach(const Frame& frame, const ArrayXd& held) {
-  const auto reached = [&](const ArrayXd& x) {
-    const ArrayXd size = x.abs() * frame.usable;
-    return (size * held).maxCoeff() <= kReach * (size * (1.0 - held)).maxCoeff();
-  };
-  return reached(frame.torsion) && reached(frame.torsion_rate) && reached(frame.motor_speed) &&
-         reached(frame.torque);
 }
 
 void mask(const Frame& frame, ArrayXd& rows, std::size_t segment) {
@@ -83,8 +81,7 @@ std::vector<ArrayXd> folds_of(const Frame& frame) {
     for (std::size_t i : hand) mask(frame, folds.back(), i);
   }
   if (!folds.empty()) return folds;
-  const ArrayXd last = ends(frame);
-  return {within_reach(frame, last) ? last : none};
+  return {ends(frame)};
 }
 
 ArrayXd held_out(const Frame& frame) {

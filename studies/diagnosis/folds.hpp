@@ -12,8 +12,8 @@ namespace flexspline::studies {
 /// Whole recordings: those that the data set marks, in one fold; without marks each recording that
 /// reaches furthest in nothing, torsion, rate, speed or torque (no law is judged where it has not
 /// been fitted), dealt out in the order of their fastest motion into folds of a third of all
-/// recordings at most. Where every recording reaches furthest in something, the last third of each;
-/// nothing where that would reach further than the rest.
+/// recordings at most. Where every recording reaches furthest in something, the last third of each
+/// but for what reaches further than the rest, which is fitted.
 std::vector<Eigen::ArrayXd> folds_of(const Frame& frame);
 
 /// All rows that are held out in some fold.

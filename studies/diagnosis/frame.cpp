@@ -20,6 +20,7 @@ constexpr double kRippleLimit = 0.002;  // that error's torque over the largest 
 constexpr double kSameZero = 0.2;       // zeros that differ by less, over the widest motion
 constexpr double kSticking = 0.02;      // of the largest speed
 constexpr double kGravity = 9.80665;    // m/s2
+constexpr double kForgotten = 5.0;      // time constants, after which 0.7 % of a start are left
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends
 
 double constant(const RecordingSet& set, const std::string& key, double fallback) {
@@ -127,6 +128,7 @@ class FrameMaker {
     centre_recordings();
     measure_ranges();
     leave_out_sticking();
+    leave_out_starts();
     leave_out_hidden_motor();
     return std::move(frame_);
   }
@@ -230,6 +232,17 @@ class FrameMaker {
     Frame& f = frame_;
     if (f.rig != Rig::servo) return;
     f.usable *= (f.motor_speed.abs() > kSticking * f.speed_range).cast<double>();
+  }
+
+  // What a joint did before its recording began still moves the torque behind a filter or a delay.
+  void leave_out_starts() {
+    Frame& f = frame_;
+    if (!f.travels) return;
+    const double forgotten = kForgotten * f.longest_lag();
+    for (const Segment& s : f.segments) {
+      auto time = f.time.segment(s.first, s.count);
+      f.usable.segment(s.first, s.count) *= (time - time[0] >= forgotten).cast<double>();
+    }
   }
 
   // A motor that follows a kinematic error accelerates by more than its angle can tell.
@@ -341,6 +354,12 @@ void Frame::measure_torsion() {
     if (usable[i] > 0.0) rates.push_back(std::abs(torsion_rate[i]));
   }
   slow_rate = percentile(rates, 0.1);
+}
+
+double Frame::fastest() const {
+  const ArrayXd& speed = rig == Rig::free ? load_speed : torsion_rate;
+  const ArrayXd& acceleration = rig == Rig::free ? load_acceleration : torsion_acceleration;
+  return (acceleration.abs() * usable).maxCoeff() / (speed.abs() * usable).maxCoeff();
 }
 
 bool Frame::has(Equation equation) const { return std::ranges::count(equations, equation) > 0; }

@@ -73,6 +73,11 @@ struct Frame {
   Eigen::ArrayXd recorded(const Eigen::ArrayXd& signal) const {
     return filtered(signal, torque_lag);
   }
+  /// Largest angular frequency of the motion: its largest acceleration over its largest speed, 1/s.
+  double fastest() const;
+  /// Longest time constant of a filter that is looked for, s: beyond it nothing of a reversal
+  /// shows.
+  double longest_lag() const { return 4.0 / fastest(); }
   /// Ranges of torsion and rate anew, after a change of either.
   void measure_torsion();
 };

@@ -13,8 +13,8 @@ Columns of_torsion(Equation, const Frame& f, const Reference&, Values) {
 std::vector<Shape> lag(const Frame& f) {
   return {{.name = "time_constant",
            .unit = "s",
-           .lower = 0.02 / fastest(f),
-           .upper = 4.0 / fastest(f)}};
+           .lower = 0.02 / f.fastest(),
+           .upper = f.longest_lag()}};
 }
 
 // An inertia that a damped joint carries along.

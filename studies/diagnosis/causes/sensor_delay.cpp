@@ -7,7 +7,7 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 std::vector<Shape> delay(const Frame& f) {
-  const double most = 0.5 / fastest(f);
+  const double most = 0.5 / f.fastest();
   return {{.name = "delay", .unit = "s", .lower = -most, .upper = most, .logarithmic = false}};
 }
 
@@ -18,7 +18,7 @@ std::vector<Shape> long_delay(const Frame& f) {
   return shapes;
 }
 
-std::vector<double> small(const Frame& f) { return {0.01 / fastest(f)}; }
+std::vector<double> small(const Frame& f) { return {0.01 / f.fastest()}; }
 
 // A torque that is late shows the motion of d ago.
 void motion_of_then(Frame& f, Values shape) {
@@ -41,12 +41,12 @@ std::vector<Shape> delay_and_lag(const Frame& f) {
   shapes.push_back({.name = "time_constant",
                     .unit = "s",
                     .lower = 0.0,
-                    .upper = 4.0 / fastest(f),
+                    .upper = f.longest_lag(),
                     .logarithmic = false});
   return shapes;
 }
 
-std::vector<double> small_both(const Frame& f) { return {0.01 / fastest(f), 0.1 / fastest(f)}; }
+std::vector<double> small_both(const Frame& f) { return {0.01 / f.fastest(), 0.1 / f.fastest()}; }
 
 void behind_a_filter(Frame& f, Values shape) {
   travel_of_then(f, shape);

@@ -18,6 +18,9 @@ Columns stiffening(Equation, const Frame& f, const Reference&, Values shape) {
   return {f.torsion - shape[0] * (f.torsion / shape[0]).tanh()};
 }
 
+// A spring that is held firm cannot be soft at first.
+bool may_be_soft(const Frame& f) { return wound_up(f) && !f.firm_spring; }
+
 Counterpart as_windup(const FittedCause& c) {
   return {.effects = {{"soft_windup", {{"stiffening", c.coefficients[0]}, {"knee", c.shape[0]}}}}};
 }
@@ -32,7 +35,7 @@ CauseRow describe_soft_windup() {
                      .at = {Equation::torsion},
                      .shapes = knee,
                      .columns = stiffening,
-                     .where = wound_up,
+                     .where = may_be_soft,
                      .counterpart = as_windup}}};
 }
 
