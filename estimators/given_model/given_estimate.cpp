@@ -63,6 +63,16 @@ Eigen::MatrixXd covariance_of(std::string_view law, std::size_t size, const Give
   return own;
 }
 
+/// Root mean square of a record's residuals as they are, without their weights.
+double rmse_of(const GivenRecord& one, const Eigen::VectorXd& residual, Eigen::Index first) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < one.rows.size(); ++i) {
+    const double plain = residual[first + static_cast<Eigen::Index>(i)] / one.weight[i];
+    sum += plain * plain;
+  }
+  return std::sqrt(sum / static_cast<double>(one.rows.size()));
+}
+
 /// Bands of the laws that have free coefficients.
 std::vector<FunctionBand> bands_of(const ModelSpec& model, const GivenResiduals& problem,
                                    const Eigen::MatrixXd& covariance, const Reach& reach) {
@@ -107,11 +117,8 @@ Estimate given_estimate(const GivenResiduals& problem, const LeastSquaresSolutio
                                   records.front().record.linear ? "N" : "Nm");
   Eigen::Index row = 0;
   for (const GivenRecord& one : records) {
-    const auto height = static_cast<Eigen::Index>(one.rows.size());
-    estimate.fits.push_back({one.record.id, Split::train,
-                             linear.residual.segment(row, height).norm() /
-                                 (one.weight * std::sqrt(static_cast<double>(height)))});
-    row += height;
+    estimate.fits.push_back({one.record.id, Split::train, rmse_of(one, linear.residual, row)});
+    row += static_cast<Eigen::Index>(one.rows.size());
   }
   estimate.identifiability = judge(problem, solution, linear, std::sqrt(variance));
   estimate.bands = bands_of(estimate.model, problem, covariance, reach);

@@ -10,6 +10,7 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kRelativeStep = 1e-6;
+constexpr double kLeastTorque = 0.1;  // that errors are relative to, of the root mean square
 
 std::vector<std::size_t> rows_of(const TorsionRecord& record, std::size_t most) {
   const std::size_t stride = (record.time.size() + most - 1) / most;
@@ -43,19 +44,31 @@ std::size_t valid_samples(const TorsionRecord& record) {
   return static_cast<std::size_t>(std::ranges::count(record.valid, true));
 }
 
-/// How many samples each residual of the records stands for, made one in the mean.
-void weigh(std::vector<GivenRecord>& records, const std::vector<std::size_t>& samples) {
-  double all_samples = 0.0;
-  double all_rows = 0.0;
+/// What an error in each row of a record is relative to, up to a factor common to all.
+double size_of(const TorsionRecord& record, std::size_t row, ErrorWeight weight, double rms) {
+  if (weight == ErrorWeight::even) return 1.0;
+  return std::max(std::abs(record.effort[row]), kLeastTorque * rms);
+}
+
+/// The root of the samples that each residual stands for over its size, squares one in the mean.
+void weigh(std::vector<GivenRecord>& records, const std::vector<std::size_t>& samples,
+           ErrorWeight weight) {
+  const double rms = rms_effort(records);
+  double squares = 0.0;
+  double rows = 0.0;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    all_samples += static_cast<double>(samples[i]);
-    all_rows += static_cast<double>(records[i].rows.size());
-  }
-  for (std::size_t i = 0; i < records.size(); ++i) {
+    GivenRecord& one = records[i];
     const double stands_for =
-        static_cast<double>(samples[i]) / static_cast<double>(records[i].rows.size());
-    if (!records[i].rows.empty())
-      records[i].weight = std::sqrt(stands_for * all_rows / all_samples);
+        static_cast<double>(samples[i]) / static_cast<double>(one.rows.size());
+    for (std::size_t row : one.rows) {
+      one.weight.push_back(std::sqrt(stands_for) / size_of(one.record, row, weight, rms));
+      squares += one.weight.back() * one.weight.back();
+    }
+    rows += static_cast<double>(one.rows.size());
+  }
+  const double mean = std::sqrt(squares / rows);
+  for (GivenRecord& one : records) {
+    for (double& w : one.weight) w /= mean;
   }
 }
 
@@ -76,20 +89,31 @@ GivenParameter zero_of(const GivenRecord& one, double longest) {
 
 }  // namespace
 
+double rms_effort(const std::vector<GivenRecord>& records) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const GivenRecord& one : records) {
+    for (std::size_t i : one.rows) sum += one.record.effort[i] * one.record.effort[i];
+    count += static_cast<double>(one.rows.size());
+  }
+  return std::sqrt(sum / std::max(1.0, count));
+}
+
 Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
-                                               std::size_t most_rows, std::size_t most_path) {
+                                               std::size_t most_rows, std::size_t most_path,
+                                               ErrorWeight weight) {
   std::vector<GivenRecord> list;
   std::vector<std::size_t> samples;
   for (const TorsionRecord& record : records) {
     auto smooth = reconstruct(record);
     if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + record.id));
-    GivenRecord one{record, std::move(smooth->motion), {}};
+    GivenRecord one{record, std::move(smooth->motion), {}, {}};
     thin(one, most_path);
     one.rows = rows_of(one.record, most_rows);
     list.push_back(std::move(one));
     samples.push_back(valid_samples(record));
   }
-  weigh(list, samples);
+  weigh(list, samples, weight);
   return list;
 }
 
@@ -150,8 +174,8 @@ Result<void> GivenResiduals::evaluate(std::size_t block, std::span<const double>
   const auto at = predict(block, q);
   if (!at) return tl::unexpected(at.error());
   const std::vector<double> target = measured(block);
-  const double weight = records_[block].weight;
-  for (std::size_t i = 0; i < target.size(); ++i) residual[i] = weight * (target[i] - (*at)[i]);
+  const std::vector<double>& weight = records_[block].weight;
+  for (std::size_t i = 0; i < target.size(); ++i) residual[i] = weight[i] * (target[i] - (*at)[i]);
   if (jacobian.empty()) return {};
   std::ranges::fill(jacobian, 0.0);
   const std::size_t n = unknowns_.size();
@@ -169,7 +193,7 @@ Result<void> GivenResiduals::evaluate(std::size_t block, std::span<const double>
     if (!up) return tl::unexpected(up.error());
     if (!down) return tl::unexpected(down.error());
     for (std::size_t i = 0; i < target.size(); ++i) {
-      jacobian[i * n + k] = -weight * ((*up)[i] - (*down)[i]) / (above - below);
+      jacobian[i * n + k] = -weight[i] * ((*up)[i] - (*down)[i]) / (above - below);
     }
   }
   return {};

@@ -11,17 +11,28 @@ struct GivenRecord {
   TorsionRecord record;
   Motion motion;                  ///< reconstructed, with what has no residual: memories need it
   std::vector<std::size_t> rows;  ///< samples that get a residual
-  double weight = 1.0;            ///< of a residual: the root of the samples it stands for
+  std::vector<double> weight;     ///< of each residual: the root of the samples it stands for,
+                                  ///< over what its error is relative to
+};
+
+/// How much an error of the torque counts.
+enum class ErrorWeight {
+  even,      ///< wherever it occurs
+  relative,  ///< over the torque measured there, or a tenth of all recordings' root mean square
 };
 
 /// Of each record at most most_path samples are simulated, evenly spread, and at most most_rows of
-/// those get a residual; invalid samples none. Thinning is made good by weights, so that every
-/// valid sample counts the same; the squares of the weights are one in the mean over all residuals.
-/// Errors: numerics, where a motion cannot be reconstructed.
+/// those get a residual; invalid samples none. Thinning is made good by weights, so that it does
+/// not matter to what a valid sample counts; the squares of the weights are one in the mean over
+/// all residuals. Errors: numerics, where a motion cannot be reconstructed.
 Result<std::vector<GivenRecord>> given_records(const std::vector<TorsionRecord>& records,
-                                               std::size_t most_rows, std::size_t most_path);
+                                               std::size_t most_rows, std::size_t most_path,
+                                               ErrorWeight weight = ErrorWeight::even);
 
-/// Measured less simulated torque, Nm (N), times the weight of the recording, of a given model: a
+/// Root mean square of the torque measured where there are residuals, Nm (N).
+double rms_effort(const std::vector<GivenRecord>& records);
+
+/// Measured less simulated torque, Nm (N), times the weights of the recording, of a given model: a
 /// block a recording. Unknowns: the parameters that are not held, then (each_zero) where every
 /// recording's motion has its zero: within the longest recorded motion of its own. The Jacobian is
 /// by central differences, one-sided at a bound.
@@ -42,7 +53,7 @@ class GivenResiduals final : public LeastSquaresProblem {
   /// What the model predicts at the rows of a block.
   Result<std::vector<double>> predict(std::size_t block, std::span<const double> q) const;
   std::vector<double> measured(std::size_t block) const;
-  double weight(std::size_t block) const { return records_[block].weight; }
+  const std::vector<double>& weight(std::size_t block) const { return records_[block].weight; }
   /// A step of an unknown that is small against its size, yet seen through rounding.
   double step(std::size_t unknown, std::span<const double> q) const;
   /// Typical sizes of the unknowns, for steps where they are near zero.

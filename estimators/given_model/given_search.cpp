@@ -75,16 +75,6 @@ std::vector<BoundedParameter> bounded(const GivenResiduals& problem,
   return list;
 }
 
-double rms_effort(const std::vector<GivenRecord>& records) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const GivenRecord& one : records) {
-    for (std::size_t i : one.rows) sum += one.record.effort[i] * one.record.effort[i];
-    count += static_cast<double>(one.rows.size());
-  }
-  return std::sqrt(sum / std::max(1.0, count));
-}
-
 /// All unknowns together from a start, in scales by what they move the torque.
 Result<LeastSquaresSolution> solved(GivenResiduals& residuals, const std::vector<double>& start,
                                     double effort, int iterations) {

@@ -16,8 +16,9 @@ constexpr double kSignedReach = 10.0;  // sizes either way, of shapes that have 
 
 using Point = std::vector<double>;
 
-void append(std::vector<double>& all, const std::vector<double>& part, double weight) {
-  for (const double value : part) all.push_back(weight * value);
+void append(std::vector<double>& all, const std::vector<double>& part,
+            const std::vector<double>& weight) {
+  for (std::size_t i = 0; i < part.size(); ++i) all.push_back(weight[i] * part[i]);
 }
 
 /// Predictions of all recordings, one below the other, times their weights.

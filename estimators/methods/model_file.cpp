@@ -35,9 +35,10 @@ Result<Estimate> fit(const FitProblem& problem) {
   }
   const auto parameters = given_parameters(*problem.model);
   if (!parameters) return tl::unexpected(parameters.error());
-  const auto records =
-      given_records(problem.records, static_cast<std::size_t>(number(problem, method, "samples")),
-                    static_cast<std::size_t>(number(problem, method, "path")));
+  const auto records = given_records(
+      problem.records, static_cast<std::size_t>(number(problem, method, "samples")),
+      static_cast<std::size_t>(number(problem, method, "path")),
+      word(problem, method, "weight") == "relative" ? ErrorWeight::relative : ErrorWeight::even);
   if (!records) return tl::unexpected(records.error());
   const auto found =
       search_given(problem.model->model, *parameters, *records, settings_of(problem));
@@ -64,6 +65,11 @@ MethodRow describe_model_file() {
                 .meaning = "where the motion has its zero: as recorded, or fitted for each "
                            "recording (a held-out one gets its own)",
                 .choices = {"recorded", "each"}},
+               {.name = "weight",
+                .meaning = "how much an error counts: the same everywhere, or relative to the "
+                           "torque measured there (a tenth of its root mean square at least), so "
+                           "that small torques are followed as closely as large ones",
+                .choices = {"even", "relative"}},
                {.name = "start_steps",
                 .meaning = "most steps of the shapes before all numbers are fitted together; "
                            "0 leaves out the second start that they give",

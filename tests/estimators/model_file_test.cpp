@@ -127,6 +127,32 @@ TEST(ModelFile, EverySampleCountsTheSame) {
   EXPECT_NEAR(value_of(*estimate, "torque_sensor_offset.offset"), 0.4 + 300.0 / 1500.0, 2e-3);
 }
 
+// The same mean, of weights 1/tau^2 and no more than 1/(0.1 rms)^2.
+TEST(ModelFile, ErrorsMayCountRelativeToTheTorque) {
+  auto problem = problem_of(kTruth);
+  problem.model->hold = {"f", "g_inverse", "stribeck_friction", "presliding_hysteresis"};
+  for (double& torque : problem.records[1].effort) torque += 1.0;
+  double squares = 0.0;
+  for (const auto& one : problem.records) {
+    for (const double torque : one.effort) squares += torque * torque / 2400.0;
+  }
+  std::array<double, 2> weight{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const double torque : problem.records[i].effort) {
+      weight[i] += 1.0 / std::max(torque * torque, 0.01 * squares);
+    }
+  }
+  problem.options.words["weight"] = "relative";
+  const auto estimate = fitted(problem);
+  ASSERT_TRUE(estimate) << estimate.error().message();
+  const double expected = 0.4 + weight[1] / (weight[0] + weight[1]);
+  EXPECT_GT(expected, 1.0) << "the even mean is 0.9";
+  EXPECT_NEAR(value_of(*estimate, "torque_sensor_offset.offset"), expected, 2e-3);
+  for (const auto& fit : estimate->fits)
+    EXPECT_NEAR(fit.rmse, fit.id == problem.records[0].id ? expected - 0.4 : 1.4 - expected, 5e-3)
+        << "as it is, not weighted";
+}
+
 // The level of a spline and an offset are one number but for friction that grows with the load,
 // which joins them only after the start.
 TEST(ModelFile, StartDoesNotRunAwayAlongWhatOnlyLoadTellsApart) {
