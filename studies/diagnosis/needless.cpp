@@ -32,6 +32,13 @@ bool usurps(const Accepted& small, const Accepted& large) {
   return !small.material && (stands_for(small, large) || stands_for(large, small));
 }
 
+std::optional<std::size_t> usurper_of(const Selection& s, std::size_t large) {
+  for (std::size_t k = 0; k < s.accepted.size(); ++k) {
+    if (s.accepted[large].material && usurps(s.accepted[k], s.accepted[large])) return k;
+  }
+  return std::nullopt;
+}
+
 bool share_equation(const Accepted& a, const Accepted& b) {
   return std::ranges::any_of(a.trial.cause.form->at, [&](Equation e) {
     return std::ranges::count(b.trial.cause.form->at, e) > 0;
@@ -127,7 +134,7 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return worth.loss[i]; });
   if (!(worth.loss[order.front()] > limits.net_gain)) {
-    return {order.front(), "the others explain it as well"};
+    return {usurper_of(s, order.front()).value_or(order.front()), "the others explain it as well"};
   }
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
   for (std::size_t i : order) {
