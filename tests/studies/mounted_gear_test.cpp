@@ -101,6 +101,17 @@ TEST(GapInSpring, DoesNotFitIntoAFirmSpring) {
   EXPECT_GT(misfit(true), 5.0 * misfit(false));
 }
 
+TEST(GapInSpring, IsNotRivalledByASpringThatIsSoftAtFirst) {
+  const auto frame = frame_of(MountedGear{});
+  ASSERT_TRUE(frame) << frame.error().message();
+  const auto forms = [&](const Frame& f, std::string_view id) {
+    return forms_on(*std::ranges::find(causes(), id, &CauseRow::id), f).size();
+  };
+  EXPECT_EQ(forms(*frame, "soft_windup"), 1U);
+  EXPECT_EQ(forms(with_firm_spring(*frame), "soft_windup"), 0U);
+  EXPECT_EQ(forms(with_firm_spring(*frame), "backlash"), forms(*frame, "backlash"));
+}
+
 TEST(GapInSpring, IsToldWhereAFirmSpringAndAGapPredictAsWell) {
   const auto row = std::ranges::find(causes(), std::string_view("backlash"), &CauseRow::id);
   Accepted gap;

@@ -1,5 +1,5 @@
-// Gears of others, diagnosed: what is named, and how well recordings held out are predicted. The
-// recordings are no part of the project; the tests skip where they are absent.
+// Gears and joints of others, diagnosed: what is named, and how well recordings held out are
+// predicted. The recordings are no part of the project; the tests skip where they are absent.
 #include <cstdlib>
 #include <filesystem>
 
@@ -12,7 +12,7 @@
 namespace flexspline::studies {
 namespace {
 
-class RealGear : public testing::Test {
+class RealRecordings : public testing::Test {
  protected:
   static Diagnosis diagnosis_of(const std::string& name) {
     const auto set = data::load_dataset(folder() / name);
@@ -33,6 +33,9 @@ class RealGear : public testing::Test {
   }
 };
 
+using RealGear = RealRecordings;
+using RealJoint = RealRecordings;
+
 // Least squares of others have 1.49 Nm with play and 1.30 Nm with load friction, in sample.
 TEST_F(RealGear, WithoutPreloadHasPlayAndLoadFriction) {
   const Diagnosis d = diagnosis_of("cycloidal-onyx");
@@ -48,6 +51,27 @@ TEST_F(RealGear, AtHighPreloadHasNoPlay) {
     EXPECT_THAT(names(d), testing::Not(testing::Contains("backlash"))) << preload;
     EXPECT_LT(d.holdout.rmse_after, most) << preload;
   }
+}
+
+// Others have 0.081 Nm at speeds held out.
+TEST_F(RealJoint, OneHasPreslidingHysteresis) {
+  const Diagnosis d = diagnosis_of("iiwa-j1");
+  EXPECT_THAT(names(d), testing::Contains("presliding_hysteresis"));
+  EXPECT_LT(d.holdout.rmse_after, 0.081);
+}
+
+TEST_F(RealJoint, FourRipplesTwiceATurnOfTheMotor) {
+  const Diagnosis d = diagnosis_of("iiwa-j4");
+  EXPECT_THAT(names(d), testing::Contains("kinematic_error"));
+  EXPECT_EQ(d.verdict, Verdict::explained);
+}
+
+// Others have 0.0183 Nm, in sample.
+TEST_F(RealJoint, SixHasFrictionThatChangesWithThePosition) {
+  const Diagnosis d = diagnosis_of("iiwa-j6");
+  EXPECT_THAT(names(d), testing::Contains("position_dependent_friction"));
+  EXPECT_EQ(d.verdict, Verdict::explained);
+  EXPECT_LT(d.holdout.rmse_after, 0.0183);
 }
 
 }  // namespace
