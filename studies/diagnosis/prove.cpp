@@ -197,6 +197,28 @@ bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection
   return gain > limits.unproved * (chi_square + gain);
 }
 
+// The error on recordings held out with a cause over that without it, which no cause may reach.
+double most_of(const Limits& limits, const Selection& s) {
+  return s.remainder ? limits.held_out_of_more : limits.held_out;
+}
+
+// What explains the same signal nearly as well as a cause that fails on recordings held out, if it
+// holds there itself.
+Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Limits& limits,
+                                                   const Selection& s, std::size_t cause) {
+  if (s.accepted[cause].rivals.empty()) return std::nullopt;
+  auto other = with_rival(frame, limits, s, cause,
+                          "it does not lower the error on recordings held out, a rival does");
+  if (!other) return tl::unexpected(other.error());
+  if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
+    return std::nullopt;
+  }
+  const auto proof = prove(frame, *other);
+  if (!proof) return tl::unexpected(proof.error());
+  if (!(proof->cause_ratio.back() < most_of(limits, *other))) return std::nullopt;
+  return std::move(*other);
+}
+
 }  // namespace
 
 Equation equation_to_prove(const Frame& frame, const Selection& selection) {
@@ -246,8 +268,14 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
     auto proof = prove(frame, s);
     if (!proof) return proof;
-    const auto worst = unconfirmed(*proof, s.remainder ? limits.held_out_of_more : limits.held_out);
+    const auto worst = unconfirmed(*proof, most_of(limits, s));
     if (!worst) return proof;
+    auto exchanged = with_proven_rival(frame, limits, s, *worst);
+    if (!exchanged) return tl::unexpected(exchanged.error());
+    if (*exchanged) {
+      s = std::move(**exchanged);
+      continue;
+    }
     s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
     const auto left_out =
         leave_out(frame, limits, s, *worst,

@@ -18,12 +18,16 @@ bool admissible(const Trial& trial, const Limits& limits) {
          !is_taken_up(trial, limits);
 }
 
-Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
+Accepted accepted_as(Trial trial, const Limits& limits) {
   Accepted accepted;
-  accepted.trial = std::move(trials[best]);
-  accepted.first_gain = accepted.trial.gain;
-  accepted.material =
-      accepted.trial.size >= limits.size && accepted.trial.net_gain >= limits.named_gain;
+  accepted.first_gain = trial.gain;
+  accepted.material = trial.size >= limits.size && trial.net_gain >= limits.named_gain;
+  accepted.trial = std::move(trial);
+  return accepted;
+}
+
+Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
+  Accepted accepted = accepted_as(std::move(trials[best]), limits);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr) continue;
     const bool alike =
@@ -194,6 +198,25 @@ Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& s, s
   const auto fitted = fit_again(frame, s);
   if (!fitted) return fitted;
   return conclude(frame, limits, s);
+}
+
+Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection s,
+                             std::size_t cause, std::string_view because) {
+  auto& rivals = s.accepted[cause].rivals;
+  Accepted rival = accepted_as(std::move(rivals.front()), limits);
+  rivals.erase(rivals.begin());
+  rival.field = s.accepted[cause].field;
+  const auto taken = take_out(frame, s, cause, because);
+  if (!taken) return tl::unexpected(taken.error());
+  auto fit = extended(frame, s.final, rival.trial.cause, kRefreshSteps);
+  if (!fit) return tl::unexpected(fit.error());
+  s.final.fit = std::move(*fit);
+  s.accepted.push_back(std::move(rival));
+  const auto fitted = fit_again(frame, s);
+  if (!fitted) return tl::unexpected(fitted.error());
+  const auto concluded = conclude(frame, limits, s);
+  if (!concluded) return tl::unexpected(concluded.error());
+  return s;
 }
 
 }  // namespace flexspline::studies

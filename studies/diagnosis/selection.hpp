@@ -79,4 +79,9 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
 Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& selection,
                        std::size_t cause, std::string_view because);
 
+/// The selection with the best rival of one of its accepted causes in that one's place, as the last
+/// cause, without rivals of its own; fitted and judged anew.
+Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection selection,
+                             std::size_t cause, std::string_view because);
+
 }  // namespace flexspline::studies

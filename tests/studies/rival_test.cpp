@@ -1,0 +1,84 @@
+// A cause that fails on recordings held out gives way to what explains the same signal nearly as
+// well and holds there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/prove.hpp"
+#include "drive_frame.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::string_view kHidden = "presliding_hysteresis";
+constexpr Eigen::Index kRows = 16000;
+
+std::vector<std::string_view> ids(const std::vector<Accepted>& accepted) {
+  std::vector<std::string_view> list;
+  for (const Accepted& a : accepted) list.push_back(a.trial.cause.row->id);
+  return list;
+}
+
+class Rivals : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto hidden = drawn_case(Rig::locked, 201, {{std::string(kHidden), 0.06}});
+    auto made = make_frame(hidden.recordings, kRows);
+    ASSERT_TRUE(made) << made.error().message();
+    frame_ = std::move(*made);
+    limits_.held_out = limits_.held_out_of_more = 0.8;
+  }
+
+  // Causes tried on the baseline, the hidden one first, the least of the others behind it.
+  std::vector<Trial> tried(const Selection& s) const {
+    auto trials = try_causes(frame_, s.baseline);
+    std::erase_if(trials, [](const Trial& t) { return t.cause.row == nullptr; });
+    EXPECT_EQ(trials.front().cause.row->id, kHidden);
+    std::ranges::sort(trials.begin() + 1, trials.end(), {}, &Trial::gain);
+    return trials;
+  }
+
+  // As if a search had taken one of them, and another had explained nearly as much.
+  Selection accepted(std::size_t taken, std::size_t rival) {
+    auto selection = select_causes(frame_, limits_, {});
+    EXPECT_TRUE(selection) << selection.error().message();
+    Selection s = *std::move(selection);
+    EXPECT_THAT(ids(s.accepted), testing::ElementsAre(kHidden));
+    const auto trials = tried(s);
+    Accepted& a = s.accepted.front();
+    a.trial = trials.at(taken);
+    a.rivals = {trials.at(rival)};
+    s.final.fit = a.trial.fit;
+    return s;
+  }
+
+  Frame frame_;
+  Limits limits_;
+};
+
+TEST_F(Rivals, OfACauseThatFailsTakesItsPlaceWhereItHolds) {
+  Selection s = accepted(1, 0);
+  const auto proof = confirm(frame_, limits_, s);
+  ASSERT_TRUE(proof) << proof.error().message();
+  EXPECT_THAT(ids(s.accepted), testing::ElementsAre(kHidden));
+  EXPECT_LT(proof->holdout.ratio, 0.8);
+  ASSERT_THAT(ids(s.withdrawn), testing::SizeIs(1));
+  EXPECT_THAT(std::string(s.withdrawn.front().withdrawn_because), testing::HasSubstr("a rival"));
+}
+
+TEST_F(Rivals, OfACauseThatHoldsStayBehindIt) {
+  Selection s = accepted(0, 1);
+  const auto proof = confirm(frame_, limits_, s);
+  ASSERT_TRUE(proof) << proof.error().message();
+  EXPECT_THAT(ids(s.accepted), testing::ElementsAre(kHidden));
+  EXPECT_TRUE(s.withdrawn.empty());
+}
+
+TEST_F(Rivals, ThatFailAsWellAreNotNamed) {
+  Selection s = accepted(1, 2);
+  const auto proof = confirm(frame_, limits_, s);
+  ASSERT_TRUE(proof) << proof.error().message();
+  EXPECT_TRUE(s.accepted.empty());
+}
+
+}  // namespace
+}  // namespace flexspline::studies
