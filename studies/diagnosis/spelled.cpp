@@ -20,10 +20,13 @@ using Eigen::Index;
 constexpr std::size_t kMostAlternatives = 2;
 constexpr Index kSeriesPoints = 400;
 
-std::vector<std::string> ids_of(const std::vector<Trial>& trials, std::size_t most) {
+// What is named beside a cause is told apart from it.
+std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& s) {
   std::vector<std::string> ids;
-  for (const Trial& t : trials) {
-    if (ids.size() < most) ids.emplace_back(t.cause.row->id);
+  for (const Trial& t : accepted.rivals) {
+    const bool named = std::ranges::any_of(
+        s.accepted, [&](const Accepted& a) { return a.trial.cause.row == t.cause.row; });
+    if (!named && ids.size() < kMostAlternatives) ids.emplace_back(t.cause.row->id);
   }
   return ids;
 }
@@ -130,6 +133,16 @@ std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
+// The first and the last row of a segment that count: what a recording begins with may be the end
+// of something before it.
+std::pair<Index, Index> judged(const Frame& frame, const Segment& segment) {
+  Index first = segment.first;
+  Index last = segment.first + segment.count - 1;
+  while (first < last && frame.usable[first] == 0.0) ++first;
+  while (last > first && frame.usable[last] == 0.0) --last;
+  return {first, last};
+}
+
 }  // namespace
 
 double p_value(double chi_square, int parameters) {
@@ -157,7 +170,7 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.equation = a.trial.cause.form->equation;
     cause.parameters =
         parameters_of(a.trial, frame, s.final.fit.model.coefficients[s.immaterial.size() + i]);
-    cause.alternatives = ids_of(a.rivals, kMostAlternatives);
+    cause.alternatives = alternatives_of(a, s);
     cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;
     cause.evidence.holdout_rmse_ratio = proof.cause_ratio[i];
@@ -247,7 +260,8 @@ std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection&
     series.equation = name_of(equation);
     const Index stride = std::max<Index>(1, segment.count / kSeriesPoints);
     const ArrayXd& measured = equation == Equation::motor ? frame.motor_torque : frame.torque;
-    for (Index r = segment.first; r < segment.first + segment.count; r += stride) {
+    const auto [first, last] = judged(frame, segment);
+    for (Index r = first; r <= last; r += stride) {
       series.time.push_back(frame.time[r]);
       series.motion.push_back(frame.torsion[r]);
       series.rate.push_back(frame.torsion_rate[r]);

@@ -133,6 +133,7 @@ TEST(LateTorque, IsNotToldByWhatCameBeforeTheRecording) {
   const Diagnosis d = diagnosed(joint({.delay = 0.02, .filter = 0.06, .before = 5.0}));
   EXPECT_THAT(names(d), testing::UnorderedElementsAre("inertia_torque", "sensor_delay")) << d.says;
   EXPECT_LT(d.holdout.rmse_after, 1.5 * kNoise);
+  for (const auto& series : d.series) EXPECT_GT(series.time.front(), 5 * 0.06) << "not shown";
 }
 
 // The weight and the friction are on time then.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/prove.hpp"
+#include "diagnosis/spelled.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {
@@ -78,6 +79,19 @@ TEST_F(Rivals, ThatFailAsWellAreNotNamed) {
   const auto proof = confirm(frame_, limits_, s);
   ASSERT_TRUE(proof) << proof.error().message();
   EXPECT_TRUE(s.accepted.empty());
+}
+
+TEST_F(Rivals, ThatAreNamedThemselvesAreNoAlternatives) {
+  Selection s = accepted(0, 1);
+  const std::string rival(s.accepted.front().rivals.front().cause.row->id);
+  Proof proof;
+  proof.cause_ratio = proof.placebo_ratio = {0.5, 0.5};
+  EXPECT_THAT(spelled_causes(frame_, s, proof).front().alternatives, testing::ElementsAre(rival));
+  Accepted other;
+  other.trial = s.accepted.front().rivals.front();
+  s.accepted.push_back(other);
+  s.final.fit.model.coefficients.push_back(Eigen::VectorXd::Ones(1));
+  EXPECT_THAT(spelled_causes(frame_, s, proof).front().alternatives, testing::IsEmpty());
 }
 
 }  // namespace
