@@ -21,6 +21,7 @@ constexpr double kSameZero = 0.2;       // zeros that differ by less, over the w
 constexpr double kSticking = 0.02;      // of the largest speed
 constexpr double kGravity = 9.80665;    // m/s2
 constexpr double kForgotten = 5.0;      // time constants, after which 0.7 % of a start are left
+constexpr double kBeginning = 0.2;      // of a recording, at most that much of it is a start
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends
 
 double constant(const RecordingSet& set, const std::string& key, double fallback) {
@@ -239,9 +240,11 @@ class FrameMaker {
     Frame& f = frame_;
     if (!f.travels) return;
     const double forgotten = kForgotten * f.longest_lag();
+    if (!std::isfinite(forgotten)) return;
     for (const Segment& s : f.segments) {
-      auto time = f.time.segment(s.first, s.count);
-      f.usable.segment(s.first, s.count) *= (time - time[0] >= forgotten).cast<double>();
+      const ArrayXd time = f.time.segment(s.first, s.count) - f.time[s.first];
+      const double start = std::min(forgotten, kBeginning * time[s.count - 1]);
+      f.usable.segment(s.first, s.count) *= (time >= start).cast<double>();
     }
   }
 

@@ -205,8 +205,13 @@ double most_of(const Limits& limits, const Selection& s) {
 // What explains the same signal nearly as well as a cause that fails on recordings held out, if it
 // holds there itself.
 Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Limits& limits,
-                                                   const Selection& s, std::size_t cause) {
-  if (s.accepted[cause].rivals.empty()) return std::nullopt;
+                                                   Selection s, std::size_t cause) {
+  auto& rivals = s.accepted[cause].rivals;
+  std::erase_if(rivals, [&](const Trial& t) {
+    return std::ranges::any_of(s.final.fit.model.causes,
+                               [&](const ActiveCause& c) { return c.row == t.cause.row; });
+  });
+  if (rivals.empty()) return std::nullopt;
   auto other = with_rival(frame, limits, s, cause,
                           "it does not lower the error on recordings held out, a rival does");
   if (!other) return tl::unexpected(other.error());
