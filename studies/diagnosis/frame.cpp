@@ -224,8 +224,7 @@ class FrameMaker {
     f.own_zeros = true;
     f.notes.push_back(
         "the zeros of the recordings differ: each, held out or not, is counted from where the "
-        "model "
-        "fits it best, one number a recording");
+        "model fits it best, one number a recording");
   }
 
   // A servo that holds still takes any drive up to its breakaway.
