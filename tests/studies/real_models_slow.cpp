@@ -28,6 +28,7 @@ std::filesystem::path recordings() {
 struct Pooled {
   double train = kNotComputed;
   double holdout = kNotComputed;
+  double held_samples = 0.0;
 };
 
 double samples_of(const TorsionRecord& record) {
@@ -42,7 +43,7 @@ Pooled pooled(const CaseOutcome& outcome, const PreparedInput& input) {
     squares[one.trained ? 0 : 1] += samples * std::pow(one.metrics.at("rmse"), 2);
     count[one.trained ? 0 : 1] += samples;
   }
-  return {std::sqrt(squares[0] / count[0]), std::sqrt(squares[1] / count[1])};
+  return {std::sqrt(squares[0] / count[0]), std::sqrt(squares[1] / count[1]), count[1]};
 }
 
 /// One cell of studies/real-models.toml.
@@ -137,10 +138,27 @@ TEST_F(RealModels, StrainWaveJointAtSpeedsHeldOut) {
   EXPECT_LT(cell("iiwa-j1", "j1-presliding").holdout, 0.075);
 }
 
-// Of these numbers to beat no split is named.
+/// Joint 6, each of its three speeds predicted by a fit to the other two.
+double every_speed_held_out(const std::string& estimator) {
+  double squares = 0.0;
+  double samples = 0.0;
+  for (const char* speed : {"iiwa-j6-p1", "iiwa-j6-p5", "iiwa-j6-p9"}) {
+    const Pooled one = cell(speed, estimator);
+    squares += one.held_samples * std::pow(one.holdout, 2);
+    samples += one.held_samples;
+  }
+  return std::sqrt(squares / samples);
+}
+
+// These numbers to beat are over all three speeds, in sample.
+TEST_F(RealModels, StrainWaveJointEverySpeedHeldOut) {
+  EXPECT_LT(every_speed_held_out("j6-coulomb"), 0.0248);
+  EXPECT_LT(every_speed_held_out("j6-position"), 0.0183);
+}
+
 TEST_F(RealModels, StrainWaveJointAtItsOwnSpeeds) {
-  EXPECT_LT(cell("iiwa-j6-all", "j6-coulomb").train, 0.0248);
-  EXPECT_LT(cell("iiwa-j6-all", "j6-position").train, 0.0183);
+  EXPECT_LT(cell("iiwa-j6-all", "j6-coulomb").train, 0.0150);
+  EXPECT_LT(cell("iiwa-j6-all", "j6-position").train, 0.0120);
 }
 
 }  // namespace
