@@ -9,6 +9,7 @@
 #include "diagnosis/finding.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
+#include "diagnosis/velocity_lag.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
 namespace flexspline::studies {
@@ -64,6 +65,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.display = recordings.display;
   d.notes = recordings.notes;
   d.notes.insert(d.notes.end(), frame.notes.begin(), frame.notes.end());
+  if (const auto lag = velocity_lag(frame)) d.notes.push_back(in_words(*lag));
   d.baseline_model = baseline_in_words(frame);
   d.baseline_rmse_train = proof.rmse_train_before;
   d.baseline_rmse_holdout = proof.holdout.rmse_before;

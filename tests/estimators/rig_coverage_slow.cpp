@@ -1,4 +1,4 @@
-// How often 95 % intervals hold the truth over 1000 simulated recordings of the locked and of the
+// How often 95 % intervals hold the truth over 2000 simulated recordings of the locked and of the
 // free rig: the coefficients' intervals for the physical parameters, and the bands of f, g^-1 and h
 // that follow from the covariance.
 #include <cmath>
