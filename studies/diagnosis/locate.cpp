@@ -18,6 +18,7 @@ using Eigen::Index;
 
 constexpr int kBins = 20;
 constexpr int kDirectedBins = 10;
+constexpr int kGridBins = 5;
 constexpr double kHighestOrder = 40.0;
 constexpr double kRidge = 1e-9;
 
@@ -42,6 +43,15 @@ Columns bins(const ArrayXd& x, int count) { return bins(x, count, ArrayXd::Ones(
 
 Columns directed_bins(const ArrayXd& x, const ArrayXd& direction, int count) {
   return bins(x, count, direction);
+}
+
+// Every bin of one with every bin of another.
+Columns grid(const ArrayXd& x, const ArrayXd& y, int count) {
+  Columns columns;
+  for (const ArrayXd& row : bins(x, count)) {
+    for (const ArrayXd& cell : bins(y, count, row)) columns.push_back(cell);
+  }
+  return columns;
 }
 
 /// The speed and acceleration that an equation is about.
@@ -118,6 +128,8 @@ class Scan {
     const ArrayXd direction = rounded_sign(speed, 0.01 * speed.abs().maxCoeff());
     if (equation_ == Equation::torsion) score("torsion", bins(f_.torsion, kBins), "torsion");
     score("velocity", bins(speed, kBins), "speed");
+    score("velocity", grid(position_of(f_, equation_), speed, kGridBins),
+          "speed, otherwise at every position");
     score("acceleration", acceleration_columns(), "acceleration");
     score("load", directed_bins(f_.torque.abs(), direction, kDirectedBins),
           "load, with the sign of the motion");

@@ -185,6 +185,20 @@ TEST(Locate, AResidualThatFollowsOneCoordinateIsFoundThere) {
   }
 }
 
+TEST(Locate, AProductOfPositionAndSpeedIsFoundThoughNeitherOrdersIt) {
+  const Frame frame = closed_form_frame();
+  const ArrayXd product = 2.0 * unit(frame.torsion) * unit(frame.torsion_rate);
+  const auto scores = locate(frame, findings_of(frame, Equation::torsion, product));
+  EXPECT_EQ(scores.front().coordinate, "velocity");
+  EXPECT_NE(scores.front().says.find("at every position"), std::string::npos);
+  EXPECT_GT(scores.front().statistic, Limits{}.remainder);
+  for (const CoordinateScore& score : scores) {
+    const bool one_of_both =
+        score.says.ends_with("the torsion") || score.says.ends_with("the speed");
+    if (one_of_both) EXPECT_LT(score.statistic, 0.25 * scores.front().statistic) << score.says;
+  }
+}
+
 TEST(Locate, NoiseIsNowhere) {
   const Frame frame = closed_form_frame();
   for (const CoordinateScore& score :
