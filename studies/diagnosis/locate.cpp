@@ -128,8 +128,6 @@ class Scan {
     const ArrayXd direction = rounded_sign(speed, 0.01 * speed.abs().maxCoeff());
     if (equation_ == Equation::torsion) score("torsion", bins(f_.torsion, kBins), "torsion");
     score("velocity", bins(speed, kBins), "speed");
-    score("velocity", grid(position_of(f_, equation_), speed, kGridBins),
-          "speed, otherwise at every position");
     score("acceleration", acceleration_columns(), "acceleration");
     score("load", directed_bins(f_.torque.abs(), direction, kDirectedBins),
           "load, with the sign of the motion");
@@ -147,6 +145,12 @@ class Scan {
       turns();
     }
     return std::move(scores_);
+  }
+
+  CoordinateScore together() {
+    score("velocity", grid(position_of(f_, equation_), speed_of(f_, equation_), kGridBins),
+          "speed, otherwise at every position");
+    return std::move(scores_.back());
   }
 
  private:
@@ -222,6 +226,15 @@ std::vector<CoordinateScore> locate(const Frame& frame, const Findings& findings
   std::vector<CoordinateScore> scores;
   for (Equation equation : frame.equations) {
     for (CoordinateScore& s : Scan(frame, findings, equation).all()) scores.push_back(std::move(s));
+  }
+  std::ranges::stable_sort(scores, std::ranges::greater{}, &CoordinateScore::statistic);
+  return scores;
+}
+
+std::vector<CoordinateScore> locate_anything(const Frame& frame, const Findings& findings) {
+  auto scores = locate(frame, findings);
+  for (Equation equation : frame.equations) {
+    scores.push_back(Scan(frame, findings, equation).together());
   }
   std::ranges::stable_sort(scores, std::ranges::greater{}, &CoordinateScore::statistic);
   return scores;

@@ -22,6 +22,11 @@ struct CoordinateScore {
 /// the residual as it is.
 std::vector<CoordinateScore> locate(const Frame& frame, const Findings& findings);
 
+/// The same, and what position and speed order together (5 x 5 bins), as a product of the two that
+/// neither orders alone. For a verdict that nothing was left out; causes are not chosen by it, as
+/// the forms of large ones leave as much.
+std::vector<CoordinateScore> locate_anything(const Frame& frame, const Findings& findings);
+
 /// The window of a recording where an equation's smoothed residual is largest.
 struct WorstWindow {
   std::size_t segment = 0;

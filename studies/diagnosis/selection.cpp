@@ -93,7 +93,7 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
 }
 
 void judge(const Frame& frame, Selection& s) {
-  s.after = locate(frame, s.final);
+  s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
   s.removed = misfit_removed(frame, s);
 }
 

@@ -58,7 +58,7 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
   if (const Accepted* small = left_unnamed(s, limits)) {
     list.push_back(mismatch_of(frame, s, *small));
   }
-  for (const CoordinateScore& score : s.before) {
+  for (const CoordinateScore& score : s.accepted.empty() ? s.after : s.before) {
     // Where something is left, the strongest coordinate is told even if it orders little of it.
     const bool told = score.statistic >= limits.remainder || (list.empty() && s.remainder);
     if (list.size() >= kMostMismatches || !told) break;

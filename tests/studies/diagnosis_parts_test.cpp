@@ -188,7 +188,7 @@ TEST(Locate, AResidualThatFollowsOneCoordinateIsFoundThere) {
 TEST(Locate, AProductOfPositionAndSpeedIsFoundThoughNeitherOrdersIt) {
   const Frame frame = closed_form_frame();
   const ArrayXd product = 2.0 * unit(frame.torsion) * unit(frame.torsion_rate);
-  const auto scores = locate(frame, findings_of(frame, Equation::torsion, product));
+  const auto scores = locate_anything(frame, findings_of(frame, Equation::torsion, product));
   EXPECT_EQ(scores.front().coordinate, "velocity");
   EXPECT_NE(scores.front().says.find("at every position"), std::string::npos);
   EXPECT_GT(scores.front().statistic, Limits{}.remainder);
@@ -202,7 +202,7 @@ TEST(Locate, AProductOfPositionAndSpeedIsFoundThoughNeitherOrdersIt) {
 TEST(Locate, NoiseIsNowhere) {
   const Frame frame = closed_form_frame();
   for (const CoordinateScore& score :
-       locate(frame, findings_of(frame, Equation::motor, ArrayXd::Zero(frame.rows())))) {
+       locate_anything(frame, findings_of(frame, Equation::motor, ArrayXd::Zero(frame.rows())))) {
     EXPECT_LT(score.statistic, 0.25 * Limits{}.remainder) << score.coordinate;
   }
 }
