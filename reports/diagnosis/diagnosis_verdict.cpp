@@ -40,9 +40,10 @@ std::string baseline_sentence(const DiagnosisView& view) {
 
 Table causes_table(const DiagnosisView& view) {
   Table table{"causes",
-              "What was left out, strongest first. The size is the largest contribution over the "
-              "largest torque; the hold-out ratio is the misfit with it over the misfit without it "
-              "on recordings that it had not seen.",
+              "What was left out, in the order in which the search took it in. The size is the "
+              "largest contribution over the largest torque; the hold-out ratio is the misfit with "
+              "it, beside all the others, over the misfit without it, on recordings that it had not "
+              "seen.",
               {{"left out", "", 3},
                {"size", "%", 2},
                {"probability", "%", 3},
