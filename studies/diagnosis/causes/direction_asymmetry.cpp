@@ -16,6 +16,18 @@ Columns across(Equation, const Frame& f, const Reference& known, Values) {
   return {known.friction.abs(), f.torsion_rate.abs() / f.rate_range};
 }
 
+std::vector<Shape> width(const Frame& f) {
+  return {{.name = "width",
+           .unit = "rad/s",
+           .lower = 1e-3 * f.rate_range,
+           .upper = 0.2 * f.rate_range}};
+}
+
+// A difference of dry friction alone, whatever else g^-1 is made of.
+Columns dry_across(Equation, const Frame& f, const Reference&, Values shape) {
+  return {rounded_sign(f.torsion_rate, shape[0]).square(), f.torsion_rate.abs() / f.rate_range};
+}
+
 // The square of a sign that saturates over several widths is that over the widest's only nearly.
 Counterpart motor_halves(const FittedCause& c) {
   Counterpart counterpart;
@@ -47,6 +59,14 @@ Counterpart gear_halves(const FittedCause& c) {
   return counterpart;
 }
 
+Counterpart dry_halves(const FittedCause& c) {
+  return {.effects = {{"direction_asymmetry",
+                       {{"coulomb_difference", c.coefficients[0]},
+                        {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
+                        {"smoothing", c.shape[0]}}}},
+          .caveat = speed_caveat(c.frame)};
+}
+
 }  // namespace
 
 CauseRow describe_direction_asymmetry() {
@@ -61,7 +81,13 @@ CauseRow describe_direction_asymmetry() {
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
                      .columns = across,
-                     .counterpart = gear_halves}}};
+                     .counterpart = gear_halves},
+                    {.equation = "tau += d tanh^2(phi'/v_w) + b |phi'|",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = width,
+                     .columns = dry_across,
+                     .counterpart = dry_halves}}};
 }
 
 }  // namespace flexspline::studies
