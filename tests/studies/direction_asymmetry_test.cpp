@@ -8,6 +8,7 @@
 
 #include "diagnosis_checks.hpp"
 #include "flexspline/core/stop_operator.hpp"
+#include "numbered_sine.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -19,11 +20,7 @@ constexpr double kNoise = 0.05;
 /// A sine that holds still for the first third of its time: friction is at rest there, an offset is
 /// not.
 Recording recording_of(double amplitude, double frequency, unsigned seed) {
-  Recording r;
-  r.id = "sine-" + std::to_string(seed);
-  r.start_s = 100.0 * seed;
-  r.amplitude = amplitude;
-  r.frequency_hz = frequency;
+  Recording r = numbered_sine(amplitude, frequency, seed);
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, kNoise);
   std::normal_distribution<double> jitter(0.0, 1e-6);

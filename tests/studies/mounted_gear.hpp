@@ -8,6 +8,7 @@
 
 #include "flexspline/core/recording.hpp"
 #include "flexspline/core/stop_operator.hpp"
+#include "numbered_sine.hpp"
 
 namespace flexspline::studies {
 
@@ -23,11 +24,7 @@ struct MountedGear {
   double elastic(double x) const { return stiffness * (x - std::clamp(x, -half_gap, half_gap)); }
 
   Recording recording(double amplitude, double frequency, double zero, unsigned seed) const {
-    Recording r;
-    r.id = "sine-" + std::to_string(seed);
-    r.start_s = 100.0 * seed;
-    r.amplitude = amplitude;
-    r.frequency_hz = frequency;
+    Recording r = numbered_sine(amplitude, frequency, seed);
     std::mt19937 random(seed);
     std::normal_distribution<double> error(0.0, noise);
     std::normal_distribution<double> jitter(0.0, 1e-6);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis_checks.hpp"
+#include "numbered_sine.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -22,11 +23,7 @@ double soft_sign(double rate, double width) { return rate / std::hypot(rate, wid
 /// A sine of motion over a spring that hardens and a drag, with a friction of the rate.
 Recording recording_of(double amplitude, double frequency, unsigned seed,
                        const std::function<double(double)>& friction) {
-  Recording r;
-  r.id = "sine-" + std::to_string(seed);
-  r.start_s = 100.0 * seed;
-  r.amplitude = amplitude;
-  r.frequency_hz = frequency;
+  Recording r = numbered_sine(amplitude, frequency, seed);
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, kNoise);
   std::normal_distribution<double> jitter(0.0, 1e-6);
