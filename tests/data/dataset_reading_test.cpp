@@ -5,6 +5,7 @@
 
 #include "dataset_fixture.hpp"
 #include "flexspline/data/dataset.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::data {
 namespace {

@@ -11,6 +11,7 @@
 #include "flexspline/core/law.hpp"
 #include "flexspline/data/estimate_json.hpp"
 #include "flexspline/data/model_toml.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::data {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "source_dir.hpp"
 #include "source_tree.hpp"
 
 namespace flexspline::house {

@@ -6,6 +6,8 @@
 #include <regex>
 #include <set>
 
+#include "source_dir.hpp"
+
 namespace flexspline::house {
 
 namespace fs = std::filesystem;

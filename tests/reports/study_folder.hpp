@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "flexspline/core/write_file.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::reports {
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "source_dir.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {

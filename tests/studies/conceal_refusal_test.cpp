@@ -3,6 +3,7 @@
 
 #include "conceal_fixture.hpp"
 #include "flexspline/studies/trial.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "diagnosis_checks.hpp"
 #include "flexspline/data/dataset.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::studies {
 namespace {

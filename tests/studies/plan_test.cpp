@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "flexspline/studies/plan.hpp"
+#include "source_dir.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {

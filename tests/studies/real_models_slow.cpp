@@ -11,6 +11,7 @@
 #include "flexspline/studies/plan.hpp"
 #include "inputs/prepared_input.hpp"
 #include "run/compute_case.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -12,6 +12,7 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flexspline/studies/study_config.hpp"
+#include "source_dir.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {
