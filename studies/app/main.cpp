@@ -29,6 +29,7 @@ void add_argument(CLI::App& sub, Slot& slot) {
   slot.option->type_name(std::string(info.value))->required(info.required);
   slot.option->expected(1)->multi_option_policy(info.repeats ? CLI::MultiOptionPolicy::TakeAll
                                                              : CLI::MultiOptionPolicy::Throw);
+  slot.option->allow_extra_args(false);  // what follows is the next position's
 }
 
 /// A command with the parser that reads its arguments.

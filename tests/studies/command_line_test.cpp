@@ -1,55 +1,19 @@
-#include <array>
-#include <cstdio>
-
-#include <sys/wait.h>
-
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "command_line.hpp"
 #include "source_dir.hpp"
-#include "study_file.hpp"
 
 namespace flexspline::studies {
 namespace {
 
 using testing::HasSubstr;
 
-struct Finished {
-  int code = -1;
-  std::string output;  ///< stdout, then stderr
-  std::string result;  ///< stdout alone
-};
-
-class CommandLine : public testing::Test {
- protected:
-  void SetUp() override {
-    program_ = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "flexspline";
-    if (!exists(program_)) GTEST_SKIP() << program_ << " is not built";
-  }
-  Finished call(const std::string& arguments) const {
-    const std::string said = (folder_.path() / "stderr.txt").string();
-    const std::string line = program_.string() + " " + arguments + " 2>" + said;
-    Finished finished;
-    FILE* pipe = popen(line.c_str(), "r");
-    std::array<char, 4096> buffer{};
-    while (const std::size_t size = fread(buffer.data(), 1, buffer.size(), pipe)) {
-      finished.result.append(buffer.data(), size);
-    }
-    finished.code = WEXITSTATUS(pclose(pipe));
-    finished.output = finished.result + read_text(said);
-    return finished;
-  }
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  ScratchFolder folder_;
-  std::filesystem::path program_;
-  const std::string study_ = kHead +
-                             "[bench]\nangle_noise = { value = 0.1, unit = \"%\" }\n"
-                             "torque_noise_white = { value = 0.1, unit = \"%\" }\n"
-                             "cycles = 3\nsamples_per_cycle = 200\n" +
-                             kGrid + kInput + kEstimator;
-};
+const std::string kStudy = kHead +
+                           "[bench]\nangle_noise = { value = 0.1, unit = \"%\" }\n"
+                           "torque_noise_white = { value = 0.1, unit = \"%\" }\n"
+                           "cycles = 3\nsamples_per_cycle = 200\n" +
+                           kGrid + kInput + kEstimator;
 
 TEST_F(CommandLine, VersionNamesCommitCompilerAndLibraries) {
   const Finished done = call("--version");
@@ -72,7 +36,7 @@ TEST_F(CommandLine, UsageErrorsExitWith2) {
 }
 
 TEST_F(CommandLine, RunPrintsThePathOfAReportThatIsThere) {
-  folder_.write("study.toml", study_);
+  folder_.write("study.toml", kStudy);
   const Finished done = call("run " + path("study.toml") + " --out " + path("out"));
   EXPECT_EQ(done.code, 0) << done.output;
   EXPECT_THAT(done.result, HasSubstr(path("out")));
@@ -81,7 +45,7 @@ TEST_F(CommandLine, RunPrintsThePathOfAReportThatIsThere) {
 }
 
 TEST_F(CommandLine, RunSaysAsJsonThatNothingWasRedone) {
-  folder_.write("study.toml", study_);
+  folder_.write("study.toml", kStudy);
   const std::string line = "run " + path("study.toml") + " --json --quiet --out " + path("out");
   EXPECT_EQ(nlohmann::json::parse(call(line).result)["computed"], 1);
   const auto again = nlohmann::json::parse(call(line).result);
@@ -90,7 +54,7 @@ TEST_F(CommandLine, RunSaysAsJsonThatNothingWasRedone) {
 }
 
 TEST_F(CommandLine, PlanWritesNothing) {
-  folder_.write("study.toml", study_);
+  folder_.write("study.toml", kStudy);
   const Finished done = call("plan " + path("study.toml"));
   EXPECT_EQ(done.code, 0);
   EXPECT_THAT(done.result, HasSubstr("unity--paper--r0"));
@@ -118,7 +82,7 @@ TEST_F(CommandLine, MissingInputExitsWith66) {
 }
 
 TEST_F(CommandLine, FolderThatCannotBeWrittenExitsWith73AndIsNamed) {
-  folder_.write("study.toml", study_);
+  folder_.write("study.toml", kStudy);
   folder_.write("file", "");
   const Finished done = call("run " + path("study.toml") + " --out " + path("file/out"));
   EXPECT_EQ(done.code, 73);

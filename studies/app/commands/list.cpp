@@ -5,6 +5,7 @@
 
 #include "catalogue_text.hpp"
 #include "command.hpp"
+#include "effect_json.hpp"
 #include "effect_pages.hpp"
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/law.hpp"
@@ -22,34 +23,7 @@ using nlohmann::ordered_json;
 
 ordered_json list_effects() {
   ordered_json list = ordered_json::array();
-  for (const EffectRow& row : effects()) {
-    ordered_json parameters = ordered_json::array();
-    for (const EffectParameter& one : row.parameters) {
-      parameters.push_back({{"name", one.name},
-                            {"unit", one.unit},
-                            {"lower", one.lower},
-                            {"upper", one.upper},
-                            {"nominal", one.nominal},
-                            {"source", one.source}});
-    }
-    ordered_json rigs = ordered_json::array();
-    for (const Rig rig : row.rigs) rigs.push_back(name_of(rig));
-    list.push_back({{"id", row.id},
-                    {"says", row.equation},
-                    {"coordinate", row.coordinate},
-                    {"site", name_of(row.site)},
-                    {"enters", site_in_words(row.site)},
-                    {"rigs", rigs},
-                    {"range", row.range},
-                    {"not_modelled", row.not_modelled},
-                    {"source", row.source},
-                    {"states", row.states},
-                    {"repeats", row.repeats},
-                    {"passive", row.passive},
-                    {"active_because", row.active_because},
-                    {"rate_independent", row.rate_independent},
-                    {"parameters", parameters}});
-  }
+  for (const EffectRow& row : effects()) list.push_back(effect_json(row));
   return list;
 }
 

@@ -3,21 +3,21 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "embedded_text.hpp"
 #include "flexspline/core/nearest_name.hpp"
-#include "schemas.hpp"
 
 namespace flexspline::app {
 namespace {
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const std::string name = arguments.text("name");
-  const auto found = std::ranges::find(schemas(), name, &SchemaText::name);
+  const auto found = std::ranges::find(schemas(), name, &EmbeddedText::name);
   if (found != schemas().end()) {
     console.result(found->text.substr(0, found->text.find_last_not_of('\n') + 1));
     return kDone;
   }
   std::vector<std::string_view> names;
-  for (const SchemaText& schema : schemas()) names.push_back(schema.name);
+  for (const EmbeddedText& schema : schemas()) names.push_back(schema.name);
   return failure(ErrorCode::usage, fmt::format("there is no schema '{}'", name),
                  suggestion(name, names));
 }

@@ -5,13 +5,16 @@
 
 namespace flexspline::app {
 
-/// A JSON schema that the program carries with it.
-struct SchemaText {
+/// A file that the program carries with it.
+struct EmbeddedText {
   std::string_view name;
   std::string_view text;
 };
 
 /// Every data/schemas/<name>.schema.json.
-std::span<const SchemaText> schemas();
+std::span<const EmbeddedText> schemas();
+
+/// Every data/templates/<name>.toml.
+std::span<const EmbeddedText> templates();
 
 }  // namespace flexspline::app

@@ -1,0 +1,97 @@
+#include <cmath>
+#include <regex>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "command_line.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using testing::HasSubstr;
+
+/// A table with the columns that a template's [channels] names: time, and sines of other phases.
+std::string table_for(const std::string& dataset) {
+  static const std::regex channel("^(\\w+) = \\{ quantity = \"(\\w+)\"");
+  std::vector<std::string> columns;
+  std::istringstream lines(dataset);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch found;
+    if (std::regex_search(line, found, channel)) columns.push_back(found[1]);
+  }
+  std::string text;
+  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
+  text += '\n';
+  for (int i = 0; i < 400; ++i) {
+    text += fmt::format("{}", 0.5 * i);
+    for (std::size_t c = 1; c < columns.size(); ++c) {
+      text += fmt::format(",{:.9g}", std::sin(0.0157 * i + 0.1 * static_cast<double>(c)));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+TEST_F(CommandLine, InitWritesAStudyAndABenchThatAreValidAsTheyStand) {
+  for (const char* kind : {"study", "bench"}) {
+    const Finished done = call(fmt::format("init {} {}", kind, path(kind)));
+    ASSERT_EQ(done.code, 0) << done.output;
+    EXPECT_EQ(done.result, path(kind) + ".toml\n");
+    const Finished check = call("validate " + path(kind) + ".toml");
+    EXPECT_EQ(check.code, 0) << check.output;
+  }
+  EXPECT_THAT(call("plan " + path("study.toml")).result, HasSubstr("h_even--trajectory--r0"));
+}
+
+TEST_F(CommandLine, InitWritesADataSetForEveryRigThatIsValidOnceItsTableIsThere) {
+  static const std::regex file("file = \"([^\"]+)\"");
+  for (const char* rig : {"locked", "free", "specimen", "servo"}) {
+    ASSERT_EQ(call(fmt::format("init rig {} --rig {}", path(rig), rig)).code, 0) << rig;
+    const std::string text = read_text(path(rig) + "/dataset.toml");
+    std::smatch name;
+    ASSERT_TRUE(std::regex_search(text, name, file));
+    EXPECT_EQ(call("validate " + path(rig)).code, 65) << "there is no table yet";
+    folder_.write(std::string(rig) + "/" + name[1].str(), table_for(text));
+    const Finished check = call("validate " + path(rig));
+    EXPECT_EQ(check.code, 0) << rig << ": " << check.output;
+  }
+}
+
+TEST_F(CommandLine, InitNeverOverwritesAndNamesTheTemplatesThereAre) {
+  folder_.write("mine.toml", "precious");
+  const Finished done = call("init study " + path("mine.toml"));
+  EXPECT_EQ(done.code, 73);
+  EXPECT_THAT(done.output, HasSubstr("mine.toml is there already"));
+  EXPECT_EQ(read_text(path("mine.toml")), "precious");
+  const Finished unknown = call("init studdy " + path("x"));
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.output, HasSubstr("did you mean 'study'?"));
+  EXPECT_EQ(call("init rig " + path("x") + " --rig lockd").code, 2);
+}
+
+TEST_F(CommandLine, ExplainPrintsAnEffectsPageOrTheNearestName) {
+  const Finished done = call("explain backlash");
+  EXPECT_EQ(done.code, 0);
+  for (const char* words : {"# backlash", "phi_e = phi", "`half_gap`", "## Source"}) {
+    EXPECT_THAT(done.result, HasSubstr(words));
+  }
+  EXPECT_THAT(done.result, testing::Not(HasSubstr("<!--")));
+  EXPECT_EQ(nlohmann::json::parse(call("explain backlash --json").result)["id"], "backlash");
+  const Finished unknown = call("explain backlsh");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.output, HasSubstr("did you mean 'backlash'?"));
+}
+
+TEST_F(CommandLine, DoctorFitsCertifiedProblemsAndFindsTheSolversGood) {
+  const Finished done = call("doctor --json");
+  EXPECT_EQ(done.code, 0) << done.output;
+  const auto checks = nlohmann::json::parse(done.result);
+  EXPECT_EQ(checks.back()["check"], "solvers");
+  EXPECT_EQ(checks.back()["health"], "good");
+  EXPECT_THAT(checks.front()["found"].get<std::string>(), HasSubstr("Ceres"));
+}
+
+}  // namespace
+}  // namespace flexspline::studies
