@@ -15,8 +15,10 @@ function(flexspline_layer name)
     list(APPEND sources ${found})
   endforeach()
   add_library(flexspline_${name} STATIC ${sources})
-  target_include_directories(flexspline_${name} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}/include"
-                             PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_include_directories(flexspline_${name}
+    PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:include>"
+    PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_compile_features(flexspline_${name} PUBLIC cxx_std_20)
   target_link_libraries(flexspline_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
   flexspline_warnings(flexspline_${name})
 endfunction()

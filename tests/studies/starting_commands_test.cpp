@@ -84,6 +84,24 @@ TEST_F(CommandLine, ExplainPrintsAnEffectsPageOrTheNearestName) {
   EXPECT_THAT(unknown.output, HasSubstr("did you mean 'backlash'?"));
 }
 
+TEST_F(CommandLine, ManualHasEveryCommandAndWhatItPrintsIsRoff) {
+  const Finished done = call("manual");
+  EXPECT_EQ(done.code, 0);
+  EXPECT_TRUE(done.result.starts_with(".TH FLEXSPLINE 1"));
+  const std::string help = call("--help").result;
+  std::istringstream lines(help.substr(help.find("Subcommands:")));
+  std::string line;
+  std::getline(lines, line);
+  int commands = 0;
+  while (std::getline(lines, line)) {
+    std::string name;
+    if (!line.starts_with("  ") || !(std::istringstream(line) >> name) || line[2] == ' ') continue;
+    EXPECT_THAT(done.result, HasSubstr(".SS \"" + name + "\""));
+    ++commands;
+  }
+  EXPECT_GT(commands, 15);
+}
+
 TEST_F(CommandLine, DoctorFitsCertifiedProblemsAndFindsTheSolversGood) {
   const Finished done = call("doctor --json");
   EXPECT_EQ(done.code, 0) << done.output;
