@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sanity/check.hpp"
+
+namespace flexspline::data {
+namespace {
+
+constexpr double kFewest = 24.0;            // steps over the range
+constexpr std::size_t kLeastSamples = 200;  // fewer may take few values by chance
+constexpr double kRepeated = 4.0;           // samples a value
+
+/// Number of values that a channel takes.
+std::size_t values_taken(std::vector<double> values) {
+  std::ranges::sort(values);
+  const auto rest = std::ranges::unique(values);
+  return values.size() - rest.size();
+}
+
+std::vector<SanityFinding> find(const ObservedSet& all) {
+  std::vector<SanityFinding> list;
+  for (const Recording& recording : all.set.recordings) {
+    for (const Quantity quantity : telling_channels(all.set)) {
+      const auto* values = recording.find(quantity);
+      if (values == nullptr || values->size() < kLeastSamples || !(range_of(*values) > 0.0)) {
+        continue;
+      }
+      const auto taken = static_cast<double>(values_taken(*values));
+      if (taken > kFewest || taken * kRepeated > static_cast<double>(values->size())) continue;
+      list.push_back({"check_channel", "", Severity::warning, recording.id,
+                      fmt::format("{} takes {:.0f} values in {} samples: a step is {:.2g} % of its "
+                                  "range",
+                                  name_of(quantity), taken, values->size(), 100.0 / (taken - 1.0)),
+                      "record it with a finer resolution; what is finer than a step is not seen"});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+SanityRow describe_coarse_quantisation() {
+  return {"coarse_quantisation", "a channel of few values", find};
+}
+
+}  // namespace flexspline::data

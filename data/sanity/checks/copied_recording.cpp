@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "sanity/check.hpp"
+
+namespace flexspline::data {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr std::size_t kLeast = 32;      // samples in a row that no two measurements share
+constexpr std::size_t kDifferent = 12;  // values among them
+
+/// The channel that noise makes the most different from itself.
+const Series* telling(const ObservedSet& all, const Recording& recording) {
+  const Series* best = nullptr;
+  for (const Quantity quantity : telling_channels(all.set)) {
+    const Series* values = recording.find(quantity);
+    if (values == nullptr || !(range_of(*values) > 0.0)) continue;
+    const bool effort = quantity == Quantity::transmitted_torque || quantity == Quantity::torque ||
+                        quantity == Quantity::force;
+    if (best == nullptr || effort) best = values;
+  }
+  return best;
+}
+
+/// Samples around i of b that are those around k of a.
+std::size_t shared_around(const Series& a, std::size_t k, const Series& b, std::size_t i) {
+  std::size_t back = 0;
+  while (back < k && back < i && a[k - back - 1] == b[i - back - 1]) ++back;
+  std::size_t on = 0;
+  while (k + on < a.size() && i + on < b.size() && a[k + on] == b[i + on]) ++on;
+  const auto part = std::span(b).subspan(i - back, back + on);
+  Series values(part.begin(), part.end());
+  std::ranges::sort(values);
+  const auto rest = std::ranges::unique(values);
+  return values.size() - rest.size() < kDifferent ? 0 : back + on;
+}
+
+/// The longest stretch that two series share, as probes along the second tell.
+std::size_t shared(const Series& a, const Series& b) {
+  std::multimap<double, std::size_t> places;
+  for (std::size_t k = 0; k < a.size(); ++k) places.emplace(a[k], k);
+  std::size_t most = 0;
+  for (std::size_t i = kLeast / 2; i < b.size(); i += kLeast / 2) {
+    const auto [first, last] = places.equal_range(b[i]);
+    if (std::distance(first, last) > 64) continue;  // a level that is often there tells nothing
+    for (auto place = first; place != last; ++place) {
+      most = std::max(most, shared_around(a, place->second, b, i));
+    }
+  }
+  return most;
+}
+
+std::vector<SanityFinding> find(const ObservedSet& all) {
+  std::vector<SanityFinding> list;
+  const auto& recordings = all.set.recordings;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Series* a = telling(all, recordings[k]);
+      const Series* b = telling(all, recordings[i]);
+      if (a == nullptr || b == nullptr) continue;
+      const std::size_t same = shared(*a, *b);
+      if (same < kLeast) continue;
+      list.push_back(
+          {"check_channel", "", Severity::error, recordings[i].id,
+           fmt::format("{} samples in a row are those of recording '{}'", same, recordings[k].id),
+           "give each recording its own file: what is fitted must not be held out"});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+SanityRow describe_copied_recording() {
+  return {"copied_recording", "a recording that is a copy of another", find};
+}
+
+}  // namespace flexspline::data

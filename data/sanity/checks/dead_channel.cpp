@@ -1,0 +1,38 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "sanity/check.hpp"
+
+namespace flexspline::data {
+namespace {
+
+/// The value of a channel that is the same wherever the bench did not mark a sample as spoiled.
+bool is_dead(const Recording& recording, const std::vector<double>& values) {
+  const auto valid = valid_samples(recording);
+  return std::ranges::all_of(valid, [&](std::size_t i) { return values[i] == values[valid[0]]; });
+}
+
+std::vector<SanityFinding> find(const ObservedSet& all) {
+  std::vector<SanityFinding> list;
+  for (const Recording& recording : all.set.recordings) {
+    for (const Quantity quantity : telling_channels(all.set)) {
+      const auto* values = recording.find(quantity);
+      if (values == nullptr || values->empty() || !is_dead(recording, *values)) continue;
+      list.push_back(
+          {"check_channel", "", Severity::error, recording.id,
+           fmt::format("{} is {:.6g} in every sample", name_of(quantity), values->front()),
+           "see whether the sensor was connected and the right column is named; leave "
+           "the recording out"});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+SanityRow describe_dead_channel() {
+  return {"dead_channel", "a channel that is the same number throughout a recording", find};
+}
+
+}  // namespace flexspline::data

@@ -1,0 +1,73 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sanity/check.hpp"
+#include "sanity/evidence.hpp"
+
+namespace flexspline::data {
+namespace {
+
+constexpr double kMostOff = 1.15;  // of the ratio: windup and kinematic error are less
+constexpr double kFollows = 0.9;   // of the motor's variance: less, and the load did not follow
+
+SanityFinding finding(std::string code, std::string what, std::string remedy) {
+  return {std::move(code), "", Severity::error, "", std::move(what), std::move(remedy)};
+}
+
+/// Slope of the motor's angle over the load's, over the ratio that the set states.
+std::vector<Factor> slopes(const ObservedSet& all) {
+  std::vector<Factor> list;
+  for (const Observed& o : all.recordings) {
+    if (o.motor_angle.size() == 0 || o.load_angle.size() == 0) continue;
+    const auto fit =
+        regression({o.load_angle, Eigen::ArrayXd::Ones(o.time.size())}, o.motor_angle, o.usable);
+    if (fit.explained < kFollows) continue;
+    list.push_back({o.recording->id, fit.coefficient[0] / all.constant("gear_ratio")});
+  }
+  return list;
+}
+
+SanityFinding of_slope(const ObservedSet& all, double factor) {
+  const double ratio = all.constant("gear_ratio");
+  const std::string seen =
+      fmt::format("the motor's angle is {:.4g} times the load's, and gear_ratio is {:.4g}",
+                  factor * ratio, ratio);
+  if (factor < 0.0) {
+    return finding("check_sign", seen, "check the sign of motor_angle against load_angle");
+  }
+  const std::string mistake = mistake_of(factor, ratio);
+  return finding(
+      "check_ratio",
+      mistake.empty() ? seen : fmt::format("{} ({:.3g} times it: {})", seen, factor, mistake),
+      "check gear_ratio, the units of both angles, and which column is which");
+}
+
+std::vector<SanityFinding> find(const ObservedSet& all) {
+  std::vector<SanityFinding> list;
+  const double ratio = all.constant("gear_ratio");
+  if (std::abs(ratio) < 1.0 || ratio < 0.0) {
+    list.push_back(finding(ratio < 0.0 ? "check_sign" : "check_ratio",
+                           fmt::format("gear_ratio is {:.4g}: a reduction is at least 1", ratio),
+                           "state turns of the motor for one of the output"));
+  }
+  if (all.set.rig != Rig::free || !std::isfinite(ratio)) return list;
+  const auto factors = slopes(all);
+  if (factors.empty()) return list;
+  const Agreement agreement = agreement_of(factors, kMostOff);
+  if (is_off(agreement.common, kMostOff)) list.push_back(of_slope(all, agreement.common));
+  for (const Factor& other : agreement.others) {
+    if (!is_off(other.value, kMostOff)) continue;
+    list.push_back(of_slope(all, other.value));
+    list.back().recording = other.recording;
+  }
+  return list;
+}
+
+}  // namespace
+
+SanityRow describe_gear_ratio() {
+  return {"gear_ratio", "the gear ratio against what the two angles say", find};
+}
+
+}  // namespace flexspline::data

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sanity/check.hpp"
+
+namespace flexspline::data {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr double kGap = 20.0;        // times the usual interval
+constexpr double kDuplicate = 0.02;  // of it
+constexpr double kRepeats = 0.2;     // of the rows that are the row before again
+constexpr std::size_t kLongestRepeat = 9;
+
+Series intervals_of(const Series& time) {
+  Series steps;
+  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  return steps;
+}
+
+SanityFinding warning(const Recording& recording, std::string what, std::string remedy) {
+  return {"check_channel", "", Severity::warning, recording.id, std::move(what), std::move(remedy)};
+}
+
+void look_for_gaps(const Recording& recording, std::vector<SanityFinding>& list) {
+  const Series steps = intervals_of(recording.time);
+  const double usual = median_of(steps);
+  const auto widest = std::ranges::max_element(steps);
+  const auto gaps = std::ranges::count_if(steps, [&](double s) { return s > kGap * usual; });
+  if (gaps > 0) {
+    list.push_back(warning(
+        recording,
+        fmt::format("{} gap{} in time, the longest of {:.3g} s at {:.6g} s, {:.0f} times the "
+                    "usual interval",
+                    gaps, gaps == 1 ? "" : "s", *widest,
+                    recording.time[static_cast<std::size_t>(widest - steps.begin())],
+                    *widest / usual),
+        "cut it into recordings there: nobody knows what the motion did in between"));
+  }
+  const auto twice = std::ranges::count_if(steps, [&](double s) { return s < kDuplicate * usual; });
+  if (twice == 0) return;
+  list.push_back(warning(recording,
+                         fmt::format("{} time stamps repeat the one before, or nearly so", twice),
+                         "keep one row a stamp"));
+}
+
+bool same_row(const Recording& recording, std::size_t i) {
+  return std::ranges::all_of(recording.channels, [i](const auto& channel) {
+    return channel.second[i] == channel.second[i - 1];
+  });
+}
+
+// A log that is faster than its sensors repeats each row some times; a bench at rest, for long.
+void look_for_repeats(const Recording& recording, std::vector<SanityFinding>& list) {
+  std::size_t repeats = 0;
+  std::size_t run = 0;
+  for (std::size_t i = 1; i <= recording.time.size(); ++i) {
+    const bool same = i < recording.time.size() && same_row(recording, i);
+    if (!same && run <= kLongestRepeat) repeats += run;
+    run = same ? run + 1 : 0;
+  }
+  const double share = static_cast<double>(repeats) / static_cast<double>(recording.time.size());
+  if (share < kRepeats) return;
+  list.push_back(warning(recording,
+                         fmt::format("{:.0f} % of the rows are the row before again, with a later "
+                                     "time",
+                                     100.0 * share),
+                         "keep the rows that were measured: the log is faster than the sensors"));
+}
+
+std::vector<SanityFinding> find(const ObservedSet& all) {
+  std::vector<SanityFinding> list;
+  for (const Recording& recording : all.set.recordings) {
+    if (recording.time.size() < 3) continue;
+    look_for_gaps(recording, list);
+    look_for_repeats(recording, list);
+  }
+  return list;
+}
+
+}  // namespace
+
+SanityRow describe_time_stamps() {
+  return {"time_stamps", "gaps in time, stamps and rows that repeat", find};
+}
+
+}  // namespace flexspline::data

@@ -1,0 +1,37 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "flexspline/data/sanity.hpp"
+#include "sanity/check.hpp"
+
+namespace flexspline::data {
+
+std::string_view name_of(Severity severity) {
+  return severity == Severity::error ? "error" : "warning";
+}
+
+std::string SanityFinding::message() const {
+  const std::string where = recording.empty() ? "" : fmt::format("recording '{}': ", recording);
+  return fmt::format("{}: {}{}; {}", code, where, what, remedy);
+}
+
+std::vector<SanityFinding> sanity_of(const RecordingSet& set) {
+  const ObservedSet observed = observe(set);
+  std::vector<SanityFinding> findings;
+  for (const SanityRow& row : sanity_checks()) {
+    for (SanityFinding& finding : row.find(observed)) {
+      finding.check = row.id;
+      findings.push_back(std::move(finding));
+    }
+  }
+  std::ranges::stable_sort(findings, std::ranges::greater{}, &SanityFinding::severity);
+  return findings;
+}
+
+bool stops_science(const std::vector<SanityFinding>& findings) {
+  return std::ranges::any_of(
+      findings, [](const SanityFinding& one) { return one.severity == Severity::error; });
+}
+
+}  // namespace flexspline::data

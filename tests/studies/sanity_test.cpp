@@ -1,0 +1,127 @@
+#include "flexspline/data/sanity.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "damaged_set.hpp"
+#include "drive_frame.hpp"
+#include "flexspline/data/dataset.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using data::sanity_of;
+using data::SanityFinding;
+
+std::string said(const std::vector<SanityFinding>& findings) {
+  std::string text;
+  for (const SanityFinding& one : findings) text += one.check + " " + one.message() + "\n";
+  return text;
+}
+
+/// One drawn bench a rig.
+const RecordingSet& sound(Rig rig) {
+  static const std::map<Rig, RecordingSet> sets = [] {
+    std::map<Rig, RecordingSet> made;
+    for (const Rig each : {Rig::locked, Rig::free, Rig::specimen, Rig::servo}) {
+      made[each] = drawn_case(each, 77).recordings;
+    }
+    return made;
+  }();
+  return sets.at(rig);
+}
+
+TEST(Sanity, SoundBenchesRaiseNoAlarm) {
+  for (const Rig rig : {Rig::locked, Rig::free, Rig::specimen, Rig::servo}) {
+    EXPECT_EQ(said(sanity_of(sound(rig))), "") << name_of(rig);
+  }
+}
+
+class SanityOfDamage : public testing::TestWithParam<Damage> {};
+
+TEST_P(SanityOfDamage, IsFoundOnEveryRigThatCanTell) {
+  for (const Rig rig : GetParam().rigs) {
+    RecordingSet set = sound(rig);
+    Draw draw(5);
+    GetParam().apply(set, draw);
+    EXPECT_FALSE(sanity_of(set).empty()) << name_of(rig);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, SanityOfDamage, testing::ValuesIn(damages()),
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
+                           std::erase_if(name, [](char c) { return std::isalnum(c) == 0; });
+                           return name;
+                         });
+
+/// The finding of one check on a damaged set, with its code.
+void expect_code(Rig rig, const std::string& damage, const std::string& code,
+                 const std::string& number) {
+  const auto found = std::ranges::find(damages(), damage, &Damage::name);
+  ASSERT_NE(found, damages().end());
+  RecordingSet set = sound(rig);
+  Draw draw(5);
+  found->apply(set, draw);
+  const auto findings = sanity_of(set);
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings.front().severity, data::Severity::error);
+  EXPECT_TRUE(data::stops_science(findings));
+  EXPECT_TRUE(std::ranges::any_of(findings, [&](const SanityFinding& one) {
+    return one.code == code && one.what.find(number) != std::string::npos;
+  })) << said(findings);
+}
+
+TEST(Sanity, SaysWhichCodeAndTheNumberThatShowsIt) {
+  expect_code(Rig::free, "ratio halved", "check_ratio", "2");
+  expect_code(Rig::locked, "ms taken for s", "check_units", "0.001");
+  expect_code(Rig::locked, "degrees taken for radians", "check_units", "57.3");
+  expect_code(Rig::specimen, "sign of the torque", "check_sign", "-");
+  expect_code(Rig::locked, "a dead torque", "check_channel", "in every sample");
+}
+
+// Where nothing nominal is stated, what the physics of the bench tells is told all the same.
+TEST(Sanity, OfAFreeRigNeedsNothingNominal) {
+  for (const char* damage : {"ms taken for s", "s taken for ms", "mNm taken for Nm", "ratio halved",
+                             "sign of the torque", "both angles exchanged"}) {
+    RecordingSet set = sound(Rig::free);
+    for (Recording& recording : set.recordings) {
+      recording.amplitude.reset(), recording.frequency_hz.reset();
+    }
+    ASSERT_TRUE(sanity_of(set).empty());
+    Draw draw(5);
+    std::ranges::find(damages(), damage, &Damage::name)->apply(set, draw);
+    EXPECT_TRUE(data::stops_science(sanity_of(set))) << damage;
+  }
+}
+
+TEST(Sanity, AnEmptySetAndAShortRecordingSayNothingAndDoNotFail) {
+  RecordingSet set;
+  EXPECT_TRUE(sanity_of(set).empty());
+  set.recordings.emplace_back();
+  EXPECT_TRUE(sanity_of(set).empty());
+}
+
+// Recordings by others are sound; they are no part of the project.
+TEST(Sanity, RecordingsOfOthersRaiseNoAlarm) {
+  const char* given = std::getenv("FLEXSPLINE_SHARED");
+  const std::filesystem::path shared =
+      given != nullptr ? std::filesystem::path(given)
+                       : std::filesystem::path(FLEXSPLINE_SOURCE_DIR).parent_path() / "shared";
+  if (!std::filesystem::exists(shared / "recordings")) {
+    GTEST_SKIP() << "the real recordings are not at " << shared / "recordings";
+  }
+  for (const char* folder : {"recordings", "practice/cases"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(shared / folder)) {
+      if (!entry.is_directory()) continue;
+      const auto set = data::load_dataset(entry.path());
+      ASSERT_TRUE(set) << set.error().message();
+      EXPECT_EQ(said(sanity_of(*set)), "") << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flexspline::studies
