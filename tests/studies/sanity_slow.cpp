@@ -1,12 +1,15 @@
-#include <map>
+#include <cstdlib>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "damaged_set.hpp"
 #include "flexspline/core/in_parallel.hpp"
+#include "flexspline/data/dataset.hpp"
 #include "flexspline/data/sanity.hpp"
 #include "flexspline/studies/conceal.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -67,6 +70,25 @@ TEST(SanitySlow, DamagedSetsAreFound) {
   }
   fmt::print("{} of {} damaged sets found\n", found, kDamaged);
   EXPECT_GE(found, kDamaged * 95 / 100);
+}
+
+// Recordings by others are sound; they are no part of the project.
+TEST(SanitySlow, RecordingsOfOthersRaiseNoAlarm) {
+  const char* given = std::getenv("FLEXSPLINE_SHARED");
+  const std::filesystem::path shared =
+      given != nullptr ? std::filesystem::path(given)
+                       : std::filesystem::path(FLEXSPLINE_SOURCE_DIR).parent_path() / "shared";
+  if (!std::filesystem::exists(shared / "recordings")) {
+    GTEST_SKIP() << "the real recordings are not at " << shared / "recordings";
+  }
+  for (const char* folder : {"recordings", "practice/cases"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(shared / folder)) {
+      if (!entry.is_directory()) continue;
+      const auto set = data::load_dataset(entry.path());
+      ASSERT_TRUE(set) << set.error().message();
+      for (const auto& one : data::sanity_of(*set)) ADD_FAILURE() << entry << one.message();
+    }
+  }
 }
 
 }  // namespace
