@@ -130,7 +130,25 @@ std::vector<HiddenExcitation> draw_design(Rig rig, std::uint64_t seed, const Hid
   return torsion_design(seed, gear.rated_torsion);
 }
 
-HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed) {
+namespace {
+
+HiddenBench draw_joint_bench(std::uint64_t seed) {
+  HiddenBench bench;
+  bench.rig = Rig::specimen;
+  bench.travels = true;
+  bench.seed = seed;
+  bench.gear = draw_joint(seed);
+  bench.design = joint_design(seed, bench.gear.rated_torsion);
+  bench.nuisances = draw_nuisances(bench.rig, seed, bench.gear);
+  bench.nuisances.motor_encoder_step = kTurn / 0x1p18;
+  return bench;
+}
+
+}  // namespace
+
+HiddenBench draw_hidden_bench(BenchKind kind, std::uint64_t seed) {
+  if (kind.travels) return draw_joint_bench(seed);
+  const Rig rig = kind.rig;
   const double torque = drawn(seed, "rated", 0, 25.0, 60.0);
   const double torsion = drawn(seed, "rated", 1, 2.5e-3, 6e-3);
   HiddenBench bench;

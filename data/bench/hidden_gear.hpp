@@ -13,4 +13,11 @@ HiddenGear draw_gear(Rig rig, std::uint64_t seed, double rated_torque, double ra
 /// Recordings that ask the gear for its rated torque.
 std::vector<HiddenExcitation> draw_design(Rig rig, std::uint64_t seed, const HiddenGear& gear);
 
+/// A joint whose angle travels: weight, cables and a stop over the angle, neither odd nor rising;
+/// Coulomb and viscous friction.
+HiddenGear draw_joint(std::uint64_t seed);
+
+/// Ramps at four speeds, sines, a multisine and a staircase over a travel, rad.
+std::vector<HiddenExcitation> joint_design(std::uint64_t seed, double travel);
+
 }  // namespace flexspline::data

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +31,8 @@ struct TorsionPoint {
   double torsion = 0.0;
   double step = 0.0;         ///< s; 0 at the start
   double motor_angle = 0.0;  ///< of a gear without kinematic error
+  double rate = 0.0;         ///< of the torsion; 0 when remembered
+  double clock = 0.0;
 };
 
 struct LoadPoint {
@@ -57,11 +61,13 @@ struct HiddenLaw {
   std::function<double(const LoadPoint&)> load;    ///< Nm the sensor sees beyond the equation
   std::function<double(const MotorPoint&)> motor;  ///< Nm at the motor that resist
   std::function<void(HiddenSignals&)> sensing;
+  std::optional<HiddenPlace> place{};  ///< where alone it acts
 };
 
 /// How large things are on the bench without effects, and the numbers an effect draws by.
 struct HiddenScale {
   Rig rig = Rig::locked;
+  bool travels = false;
   const HiddenGear* gear = nullptr;
   std::uint64_t seed = 0;
   double torque = 0.0;  ///< peaks: Nm
@@ -75,9 +81,21 @@ struct HiddenScale {
   double torsion = 0.0;
   double mean_rate = 0.0;  ///< rad/s, geometric mean of the excitations
   double clock_end = 0.0;  ///< s
+  struct Span {
+    std::string id;
+    double start_s = 0.0;
+    double duration = 0.0;
+  };
+  std::vector<Span> recordings;  ///< by id
 
   /// In [low, high): a pure function of (seed, id, index).
   double draw(std::string_view id, std::uint64_t index, double low, double high) const;
+
+  /// The torque that the rig's fits explain: a servo has the motor's alone.
+  std::vector<double> HiddenSignals::*effort() const {
+    return rig == Rig::servo ? &HiddenSignals::motor_torque : &HiddenSignals::torque;
+  }
+  double effort_peak() const { return rig == Rig::servo ? motor_torque : torque; }
 
   /// Where friction acts: at the motor; on a specimen, which has none, in what the sensor sees.
   bool at_motor() const { return rig != Rig::specimen; }

@@ -30,16 +30,40 @@ std::vector<double> sampled(const std::vector<double>& values, const std::vector
   return samples;
 }
 
+/// White noise of variance 1: normal, or of Student's t as a normal over the root of a chi square.
+class White {
+ public:
+  White(const HiddenBench& bench, const std::string& id, std::uint64_t stream)
+      : normal_(bench.seed, id, stream),
+        squares_(bench.seed, id, stream + 2),
+        degrees_(static_cast<std::uint64_t>(bench.nuisances.tail_degrees)) {}
+
+  double operator()(std::uint64_t k) const {
+    if (degrees_ == 0) return normal_.normal(k);
+    double chi_square = 0.0;
+    for (std::uint64_t j = 0; j < degrees_; ++j) {
+      chi_square += std::pow(squares_.normal(degrees_ * k + j), 2);
+    }
+    const double scale = static_cast<double>(degrees_) - 2.0;  // the variance of t is n / (n - 2)
+    return normal_.normal(k) * std::sqrt(scale / chi_square);
+  }
+
+ private:
+  CounterNoise normal_;
+  CounterNoise squares_;
+  std::uint64_t degrees_;
+};
+
 void add_noise(std::vector<double>& values, double rms, const HiddenBench& bench,
                const std::string& id, std::uint64_t stream) {
-  const CounterNoise white(bench.seed, id, stream);
+  const White white(bench, id, stream);
   const CounterNoise fresh(bench.seed, id, stream + 1);
   const double share = bench.nuisances.coloured_share;
   const double memory = std::exp(-1.0 / bench.nuisances.coloured_samples);
   double slow = fresh.normal(0);
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (k > 0) slow = memory * slow + std::sqrt(1.0 - memory * memory) * fresh.normal(k);
-    values[k] += rms * (std::sqrt(1.0 - share) * white.normal(k) + std::sqrt(share) * slow);
+    values[k] += rms * (std::sqrt(1.0 - share) * white(k) + std::sqrt(share) * slow);
   }
 }
 
@@ -50,7 +74,27 @@ void encode(std::vector<double>& values, double zero, double step) {
   }
 }
 
+void low_pass(std::vector<double>& values, double step_over_time) {
+  const double keeps = std::exp(-step_over_time);
+  const double slope_share = (1.0 - keeps) / step_over_time;
+  double last = values.front();
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double now = values[k];
+    values[k] = keeps * values[k - 1] + (1.0 - slope_share) * now + (slope_share - keeps) * last;
+    last = now;
+  }
+}
+
 }  // namespace
+
+HiddenSignals filtered(HiddenSignals signals, double samples) {
+  if (samples == 0.0) return signals;
+  for (auto* channel :
+       {&signals.motor_angle, &signals.load_angle, &signals.torque, &signals.motor_torque}) {
+    low_pass(*channel, 1.0 / (kStepsPerSample * samples));
+  }
+  return signals;
+}
 
 Recording ideal_recording(const HiddenBench& bench, const HiddenSession& session,
                           const HiddenSignals& signals) {
@@ -63,7 +107,9 @@ Recording ideal_recording(const HiddenBench& bench, const HiddenSession& session
   r.start_s = session.start_s;
   for (const double instant : at) r.time.push_back(instant * session.interval());
   if (bench.rig == Rig::specimen) {
-    r.channels[Quantity::torsion] = sampled(signals.motor_angle, at);
+    std::vector<double>& motion = r.channels[bench.travels ? Quantity::angle : Quantity::torsion];
+    motion = sampled(signals.motor_angle, at);
+    for (double& value : motion) value /= bench.gear.gear_ratio;
   } else {
     r.channels[Quantity::motor_torque] = sampled(signals.motor_torque, at);
   }
@@ -83,15 +129,17 @@ Recording noisy_recording(const HiddenBench& bench, Recording ideal, double torq
                           double motor_torque_noise) {
   const HiddenNuisances& n = bench.nuisances;
   const double own_zero = n.zero_spread * drawn(bench.seed, ideal.id, 1002, -1.0, 1.0);
-  const double zero = (n.angle_zero + own_zero) * bench.gear.gear_ratio;
+  const double turns = bench.rig == Rig::specimen ? 1.0 : bench.gear.gear_ratio;
+  const double zero = (n.angle_zero + own_zero) * turns;
   for (auto& [quantity, values] : ideal.channels) {
     switch (quantity) {
       case Quantity::motor_angle:
       case Quantity::torsion:
+      case Quantity::angle:
         encode(values, zero, n.motor_encoder_step);
         break;
       case Quantity::load_angle:
-        encode(values, 0.0, n.load_encoder_step);
+        encode(values, n.load_zero, n.load_encoder_step);
         break;
       case Quantity::transmitted_torque:
         add_noise(values, torque_noise, bench, ideal.id, torque_stream);

@@ -4,6 +4,10 @@
 
 namespace flexspline::data {
 
+/// Every signal behind the same first-order low pass, exact for signals that run straight within a
+/// step; its time constant is so many sampling intervals. 0: as they are.
+HiddenSignals filtered(HiddenSignals signals, double samples);
+
 /// A recording with the rig's channels at its sample instants, as the signals are.
 Recording ideal_recording(const HiddenBench& bench, const HiddenSession& session,
                           const HiddenSignals& signals);

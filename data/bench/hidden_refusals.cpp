@@ -48,7 +48,9 @@ std::optional<Error> refusal(const HiddenNuisances& n) {
                         {"torque_offset", n.torque_offset, -1e3, 1e3},
                         {"motor_torque_offset", n.motor_torque_offset, -1e3, 1e3},
                         {"zero_spread (rad)", n.zero_spread, 0.0, 1.0},
-                        {"temperature_spread (K)", n.temperature_spread, 0.0, 20.0}});
+                        {"temperature_spread (K)", n.temperature_spread, 0.0, 20.0},
+                        {"load_zero (rad)", n.load_zero, -1.0, 1.0},
+                        {"filter_samples", n.filter_samples, 0.0, 100.0}});
 }
 
 }  // namespace
@@ -59,6 +61,15 @@ std::optional<Error> refusal(const HiddenBench& bench) {
   if (bench.design.empty()) return usage("the design has no excitation", "give it one");
   for (const HiddenExcitation& excitation : bench.design) {
     if (auto error = refusal(excitation)) return error;
+  }
+  if (bench.travels && bench.rig != Rig::specimen) {
+    return usage(fmt::format("rig \"{}\" cannot be a joint", name_of(bench.rig)),
+                 "let a specimen travel");
+  }
+  const int tail = bench.nuisances.tail_degrees;
+  if (tail != 0 && tail < 3) {
+    return usage(fmt::format("tail_degrees = {} leaves noise without a variance", tail),
+                 "give 3 or more, or 0 for normal noise");
   }
   return refusal(bench.nuisances);
 }
@@ -71,9 +82,9 @@ std::optional<Error> refusal(const HiddenBench& bench, const std::vector<HiddenE
     if (!taken.insert(effect.id).second) {
       return usage(fmt::format("effect \"{}\" is asked for twice", effect.id), "give it one size");
     }
-    if (std::ranges::find((*row)->rigs, bench.rig) == (*row)->rigs.end()) {
+    if (!(*row)->shows_on(bench.kind())) {
       return usage(
-          fmt::format("rig \"{}\" cannot show effect \"{}\"", name_of(bench.rig), effect.id),
+          fmt::format("rig \"{}\" cannot show effect \"{}\"", name_of(bench.kind()), effect.id),
           "choose another rig or another effect");
     }
     if (auto error = first_outside({{"size_fraction", effect.size_fraction, 0.0, 0.5}})) {

@@ -45,7 +45,7 @@ double motor_angle(const HiddenGear& gear, const Laws& laws, double rigid) {
 void run_shafts(HiddenSignals& s, Rig rig, const HiddenGear& gear, const HeldMotion& held,
                 Laws& laws) {
   const bool moves_load = rig == Rig::free || rig == Rig::servo;
-  HiddenTorsion torsion(gear, laws, s.step);
+  HiddenTorsion torsion(gear, laws, s.start_s, s.step);
   for (std::size_t k = 0; k < s.motor_angle.size(); ++k) {
     const Jet motion = held.at(s.step * static_cast<double>(k));
     const double seen = seen_at_load(laws, motion, s.clock(k));

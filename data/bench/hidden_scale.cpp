@@ -43,6 +43,7 @@ HiddenScale measure_scale(const HiddenBench& bench, const std::vector<HiddenSess
                           const std::vector<HiddenSignals>& null_runs) {
   HiddenScale scale;
   scale.rig = bench.rig;
+  scale.travels = bench.travels;
   scale.gear = &bench.gear;
   scale.seed = bench.seed;
   // Summed in the order of size: the same bits whatever the order of the design.
@@ -51,7 +52,9 @@ HiddenScale measure_scale(const HiddenBench& bench, const std::vector<HiddenSess
     raise_all(scale, null_runs[k], bench.gear.gear_ratio);
     rates.push_back(std::log(2.0 * std::numbers::pi * sessions[k].excitation.frequency_hz));
     scale.clock_end = std::max(scale.clock_end, sessions[k].start_s + sessions[k].duration());
+    scale.recordings.push_back({sessions[k].id, sessions[k].start_s, sessions[k].duration()});
   }
+  std::ranges::sort(scale.recordings, {}, &HiddenScale::Span::id);
   std::ranges::sort(rates);
   double sum = 0.0;
   for (const double rate : rates) sum += rate;

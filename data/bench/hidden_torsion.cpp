@@ -7,16 +7,22 @@
 
 namespace flexspline::data {
 
-HiddenTorsion::HiddenTorsion(const HiddenGear& gear, std::vector<HiddenLaw>& laws, double step)
-    : gear_(gear), laws_(laws), step_(step) {
+HiddenTorsion::HiddenTorsion(const HiddenGear& gear, std::vector<HiddenLaw>& laws, double start_s,
+                             double step)
+    : gear_(gear), laws_(laws), start_s_(start_s), step_(step) {
   for (const HiddenLaw& law : laws) in_series_ = in_series_ || law.windup;
+}
+
+TorsionPoint HiddenTorsion::point(double x, double rate, double load_angle) const {
+  return {x, steps_ == 0 ? 0.0 : step_, gear_.gear_ratio * (x + load_angle), rate,
+          start_s_ + step_ * steps_};
 }
 
 double HiddenTorsion::law(double x, double rate, double load_angle) const {
   double torque = gear_.stiffness(x) + gear_.damping(rate / gear_.modulation(x));
-  const TorsionPoint point{x, steps_ == 0 ? 0.0 : step_, gear_.gear_ratio * (x + load_angle)};
+  const TorsionPoint here = point(x, rate, load_angle);
   for (const HiddenLaw& law : laws_) {
-    if (law.transmission) torque += law.transmission(point);
+    if (law.transmission) torque += law.transmission(here);
   }
   return torque;
 }
@@ -36,9 +42,9 @@ double HiddenTorsion::windup(double torque) const {
 }
 
 void HiddenTorsion::settle(double x, double load_angle) {
-  const TorsionPoint point{x, steps_ == 0 ? 0.0 : step_, gear_.gear_ratio * (x + load_angle)};
+  const TorsionPoint here = point(x, 0.0, load_angle);
   for (HiddenLaw& law : laws_) {
-    if (law.remember) law.remember(point);
+    if (law.remember) law.remember(here);
   }
   before_last_ = steps_ == 0 ? x : last_;
   last_ = x;

@@ -10,7 +10,7 @@ namespace flexspline::data {
 /// tau = f(x) + g^-1(x'/h(x)) + additions, torsion = x + windup(tau).
 class HiddenTorsion {
  public:
-  HiddenTorsion(const HiddenGear& gear, std::vector<HiddenLaw>& laws, double step);
+  HiddenTorsion(const HiddenGear& gear, std::vector<HiddenLaw>& laws, double start_s, double step);
 
   struct State {
     double torsion = 0.0;  ///< with what is in series
@@ -24,6 +24,7 @@ class HiddenTorsion {
 
  private:
   double law(double x, double rate, double load_angle) const;
+  TorsionPoint point(double x, double rate, double load_angle) const;
   double implicit_rate(double x) const;
   double windup(double torque) const;
   void settle(double x, double load_angle);
@@ -32,6 +33,7 @@ class HiddenTorsion {
 
   const HiddenGear& gear_;
   std::vector<HiddenLaw>& laws_;
+  double start_s_;
   double step_;
   bool in_series_ = false;
   int steps_ = 0;

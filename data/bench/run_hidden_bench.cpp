@@ -15,11 +15,11 @@ namespace {
 RecordingSet empty_set(const HiddenBench& bench) {
   const HiddenGear& gear = bench.gear;
   RecordingSet set;
-  set.name = fmt::format("virtual-{}-{}", name_of(bench.rig), bench.seed);
+  set.name = fmt::format("virtual-{}-{}", name_of(bench.kind()), bench.seed);
   set.rig = bench.rig;
   set.license = "CC0-1.0";
   set.source = "virtual bench";
-  if (bench.rig != Rig::specimen) set.constants["gear_ratio"] = gear.gear_ratio;
+  if (bench.rig != Rig::specimen || bench.travels) set.constants["gear_ratio"] = gear.gear_ratio;
   if (bench.rig != Rig::specimen) set.constants["motor_inertia_kgm2"] = gear.motor_inertia;
   if (bench.rig == Rig::free) set.constants["load_inertia_kgm2"] = gear.load_inertia;
   if (bench.rig == Rig::servo) {
@@ -52,8 +52,10 @@ std::optional<Error> not_finite(const std::vector<HiddenSession>& sessions,
 
 HiddenFinding finding(const HiddenSizing& sizing, const HiddenScale& scale) {
   const HiddenRow& row = *sizing.amount.row;
-  return {std::string(row.id), std::string(row.coordinate), hidden_equation(row.site, scale.rig),
-          sizing.size_fraction, row.make(scale, sizing.amount.amount).parameters};
+  HiddenLaw law = row.make(scale, sizing.amount.amount);
+  return {std::string(row.id),  std::string(row.coordinate), hidden_equation(row.site, scale.rig),
+          sizing.size_fraction, std::move(law.parameters),   {row.names.begin(), row.names.end()},
+          std::move(law.place)};
 }
 
 void add_recordings(HiddenDataset& data, const HiddenBench& bench,
@@ -62,7 +64,8 @@ void add_recordings(HiddenDataset& data, const HiddenBench& bench,
   data.measured = empty_set(bench);
   data.ideal = empty_set(bench);
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    data.ideal.recordings.push_back(ideal_recording(bench, sessions[k], runs[k]));
+    data.ideal.recordings.push_back(
+        ideal_recording(bench, sessions[k], filtered(runs[k], bench.nuisances.filter_samples)));
     data.measured.recordings.push_back(noisy_recording(
         bench, data.ideal.recordings.back(), data.answer.noise_std, data.answer.motor_noise_std));
   }

@@ -28,6 +28,38 @@ std::optional<data::HiddenEquation> find_equation(const std::string& name) {
   return std::nullopt;
 }
 
+ordered_json values_of(const std::vector<data::HiddenParameter>& parameters) {
+  ordered_json values = ordered_json::object();
+  for (const data::HiddenParameter& one : parameters) values[key_of(one)] = one.value;
+  return values;
+}
+
+ordered_json to_json(const std::optional<data::HiddenPlace>& place) {
+  if (!place) return nullptr;
+  return {{"recording", place->recording},
+          {"interval_s", {place->from_s, place->to_s}},
+          {"duration_s", place->duration_s}};
+}
+
+std::optional<data::HiddenPlace> place_in(const ordered_json& json) {
+  if (!json.is_object()) return std::nullopt;
+  return data::HiddenPlace{
+      json.at("recording").get<std::string>(), json.at("interval_s").at(0).get<double>(),
+      json.at("interval_s").at(1).get<double>(), json.at("duration_s").get<double>()};
+}
+
+std::vector<AppliedDisturbance> disturbances_in(const ordered_json& answer) {
+  std::vector<AppliedDisturbance> all;
+  if (!answer.contains("disturbances")) return all;
+  for (const auto& [id, values] : answer["disturbances"].items()) {
+    AppliedDisturbance& one = all.emplace_back(AppliedDisturbance{id, {}});
+    for (const auto& [name, value] : values.items()) {
+      one.parameters.push_back({name, value.get<double>(), {}});
+    }
+  }
+  return all;
+}
+
 data::HiddenFinding finding(const ordered_json& answer, std::size_t index) {
   data::HiddenFinding found;
   found.id = answer.at("effects").at(index).get<std::string>();
@@ -37,6 +69,8 @@ data::HiddenFinding finding(const ordered_json& answer, std::size_t index) {
   if (answer.contains("equation")) {
     found.equation = find_equation(answer["equation"].at(index)).value_or(found.equation);
   }
+  if (answer.contains("names")) found.names = answer["names"].at(index);
+  if (answer.contains("place")) found.place = place_in(answer["place"].at(index));
   return found;
 }
 
@@ -52,6 +86,9 @@ ordered_json to_json(const ConcealedAnswer& answer) {
                        {"twins", answer.twins},
                        {"tau_max", answer.peak_torque},
                        {"equation", ordered_json::array()},
+                       {"names", ordered_json::array()},
+                       {"place", ordered_json::array()},
+                       {"disturbances", ordered_json::object()},
                        {"best_rmse_nm", answer.best_rmse},
                        {"seed", answer.seed},
                        {"dataset_sha256", answer.dataset_sha256}};
@@ -61,10 +98,12 @@ ordered_json to_json(const ConcealedAnswer& answer) {
     json["coordinate"].push_back(effect.coordinate.empty() ? ordered_json(nullptr)
                                                            : ordered_json(effect.coordinate));
     json["equation"].push_back(data::name_of(effect.equation));
-    json["info"][effect.id] = ordered_json::object();
-    for (const data::HiddenParameter& parameter : effect.parameters) {
-      json["info"][effect.id][key_of(parameter)] = parameter.value;
-    }
+    json["names"].push_back(effect.names);
+    json["place"].push_back(to_json(effect.place));
+    json["info"][effect.id] = values_of(effect.parameters);
+  }
+  for (const AppliedDisturbance& one : answer.disturbances) {
+    json["disturbances"][one.id] = values_of(one.parameters);
   }
   return json;
 }
@@ -73,12 +112,13 @@ Result<ConcealedAnswer> answer_from_json(const ordered_json& json) {
   try {
     ConcealedAnswer answer;
     const std::string rig = json.at("rig").get<std::string>();
-    const auto found = find_rig(rig);
+    const auto found = data::find_bench_kind(rig);
     if (!found) return failure(ErrorCode::bad_data, fmt::format("unknown rig '{}'", rig));
     answer.rig = *found;
     for (std::size_t k = 0; k < json.at("effects").size(); ++k) {
       answer.effects.push_back(finding(json, k));
     }
+    answer.disturbances = disturbances_in(json);
     answer.twins = json.at("twins").get<std::vector<std::string>>();
     answer.noise_std = json.at("noise_std_nm").get<double>();
     answer.peak_torque = json.at("tau_max").get<double>();

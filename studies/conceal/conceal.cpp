@@ -34,14 +34,30 @@ double best_rmse(const data::HiddenDataset& made) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
-data::HiddenBench bench_of(const ConcealPlan& plan) {
-  data::HiddenBench bench = data::draw_hidden_bench(plan.rig, plan.seed);
+/// A bench with what was done to it.
+struct DisturbedBench {
+  data::HiddenBench bench;
+  std::vector<AppliedDisturbance> applied;
+};
+
+std::vector<std::string> disturbances_of(const ConcealPlan& plan) {
+  return plan.draw ? draw_disturbances(*plan.draw, plan.rig, plan.seed) : plan.disturbances;
+}
+
+DisturbedBench bench_of(const ConcealPlan& plan) {
+  DisturbedBench made;
+  data::HiddenBench& bench = made.bench;
+  bench = data::draw_hidden_bench(plan.rig, plan.seed);
   if (!plan.design.empty()) bench.design = plan.design;
+  for (const std::string& id : disturbances_of(plan)) {
+    const data::DisturbanceRow& row = **data::find_disturbance(id);
+    made.applied.push_back({id, row.apply(bench, plan.seed)});
+  }
   for (const NuisanceSetting& setting : nuisance_settings()) {
     const auto given = plan.nuisances.find(std::string(setting.name));
     if (given != plan.nuisances.end()) bench.nuisances.*setting.member = given->second;
   }
-  return bench;
+  return made;
 }
 
 ConcealedAnswer answer_of(const ConcealPlan& plan, data::HiddenDataset& made) {
@@ -52,7 +68,7 @@ ConcealedAnswer answer_of(const ConcealPlan& plan, data::HiddenDataset& made) {
   for (const data::HiddenFinding& effect : answer.effects) {
     std::ranges::move(twins_of(effect.id, plan.rig), std::back_inserter(answer.twins));
   }
-  const bool motor_only = plan.rig == Rig::servo;
+  const bool motor_only = plan.rig.rig == Rig::servo;
   answer.noise_std = motor_only ? made.answer.motor_noise_std : made.answer.noise_std;
   answer.peak_torque = motor_only ? made.answer.peak_motor_torque : made.answer.peak_torque;
   answer.best_rmse = best_rmse(made);
@@ -82,11 +98,13 @@ Result<data::HiddenDataset> run_drawn(const ConcealPlan& plan, const data::Hidde
 }  // namespace
 
 Result<ConcealedCase> conceal(const ConcealPlan& plan) {
-  const data::HiddenBench bench = bench_of(plan);
-  auto made = plan.draw ? run_drawn(plan, bench) : data::run_hidden_bench(bench, plan.effects);
+  DisturbedBench disturbed = bench_of(plan);
+  auto made = plan.draw ? run_drawn(plan, disturbed.bench)
+                        : data::run_hidden_bench(disturbed.bench, plan.effects);
   if (!made) return tl::unexpected(made.error());
   ConcealedCase concealed;
   concealed.answer = answer_of(plan, *made);
+  concealed.answer.disturbances = std::move(disturbed.applied);
   concealed.recordings = disguised(std::move(made->measured), plan.seed);
   concealed.answer.dataset_sha256 = concealed.recordings.sha256;
   return concealed;

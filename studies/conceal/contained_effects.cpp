@@ -26,10 +26,11 @@ std::span<const ContainedEffect> contained_effects() {
   return rows;
 }
 
-std::vector<std::string> contained_on(Rig rig) {
+std::vector<std::string> contained_on(data::BenchKind rig) {
   std::vector<std::string> ids;
+  if (rig.travels) return ids;
   for (const ContainedEffect& row : contained_effects()) {
-    if (std::ranges::find(row.rigs, rig) != row.rigs.end()) ids.emplace_back(row.effect);
+    if (std::ranges::find(row.rigs, rig.rig) != row.rigs.end()) ids.emplace_back(row.effect);
   }
   return ids;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kSchema = "flexspline-bench/1";
 
-data::HiddenEffect read_effect(TomlSection& section, Rig rig) {
+data::HiddenEffect read_effect(TomlSection& section, data::BenchKind rig) {
   data::HiddenEffect effect;
   effect.id = section.required_text("id");
   const auto size = read_bounded(section, "size_fraction", 0.0, 0.5);
@@ -21,8 +21,10 @@ data::HiddenEffect read_effect(TomlSection& section, Rig rig) {
   }
   effect.size_fraction = size.value_or(0.0);
   section.refuse_unknown_keys();
-  std::vector<std::string> ids = concealable(rig, true);
-  std::ranges::move(concealable(rig, false), std::back_inserter(ids));
+  std::vector<std::string> ids;
+  for (const data::HiddenRow& row : data::hidden_effects()) {
+    if (row.shows_on(rig)) ids.emplace_back(row.id);
+  }
   const std::vector<std::string_view> known(ids.begin(), ids.end());
   if (!effect.id.empty() && std::ranges::find(ids, effect.id) == ids.end()) {
     section.refuse("id",
@@ -55,6 +57,23 @@ void read_effects(TomlSection& root, ConcealPlan& plan) {
     const data::HiddenEffect& added = plan.effects.back();
     if (std::ranges::count(plan.effects, added.id, &data::HiddenEffect::id) < 2) continue;
     section.refuse("id", fmt::format("effect '{}' is hidden twice", added.id), "give it one size");
+  }
+}
+
+void read_disturbances(TomlSection& root, ConcealPlan& plan) {
+  const std::vector<std::string> ids = disturbances_on(plan.rig);
+  const std::vector<std::string_view> known(ids.begin(), ids.end());
+  for (const std::string& id : root.texts("disturbances")) {
+    if (std::ranges::find(ids, id) == ids.end()) {
+      root.refuse("disturbances",
+                  fmt::format("rig '{}' has no disturbance '{}'", name_of(plan.rig), id),
+                  suggestion(id, known));
+    } else if (std::ranges::find(plan.disturbances, id) != plan.disturbances.end()) {
+      root.refuse("disturbances", fmt::format("disturbance '{}' stands there twice", id),
+                  "name it once");
+    } else {
+      plan.disturbances.push_back(id);
+    }
   }
 }
 
@@ -95,6 +114,7 @@ ConcealPlan read_plan(TomlSection& root) {
   plan.rig = read_rig(root, "rig").value_or(Rig::locked);
   plan.seed = read_seed(root);
   read_effects(root, plan);
+  read_disturbances(root, plan);
   if (auto draw = root.table("draw")) {
     const ConcealDraw drawn = read_draw(*draw, {plan.rig});
     if (!plan.draw) root.refuse("draw", "[draw] beside listed effects", "write effects = \"draw\"");

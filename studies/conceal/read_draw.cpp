@@ -12,6 +12,19 @@ namespace {
 
 constexpr double kLargestSize = 0.5;
 
+struct KindKey {
+  const char* key;
+  double ConcealDraw::*share;
+};
+
+constexpr KindKey kKindKeys[] = {{"none", &ConcealDraw::none},
+                                 {"one", &ConcealDraw::one},
+                                 {"two", &ConcealDraw::two},
+                                 {"unknown", &ConcealDraw::unknown},
+                                 {"contained", &ConcealDraw::contained},
+                                 {"variant", &ConcealDraw::variant},
+                                 {"incident", &ConcealDraw::incident}};
+
 void read_sizes(TomlSection& section, ConcealDraw& draw) {
   const toml::node* node = section.node("size_fraction");
   if (node == nullptr) return;
@@ -30,7 +43,7 @@ void read_sizes(TomlSection& section, ConcealDraw& draw) {
 }
 
 /// True where the rig has what is drawn at once.
-bool check_rig(TomlSection& section, const ConcealDraw& draw, Rig rig) {
+bool check_rig(TomlSection& section, const ConcealDraw& draw, data::BenchKind rig) {
   const std::vector<std::string> ids = drawable(draw, rig);
   const auto alone = [&](const std::string& id) { return partners(ids, id, rig).empty(); };
   if (ids.empty() && draw.one + draw.two > 0.0) {
@@ -48,10 +61,11 @@ bool check_rig(TomlSection& section, const ConcealDraw& draw, Rig rig) {
   return true;
 }
 
-void check_effects(TomlSection& section, const ConcealDraw& draw, const std::vector<Rig>& rigs) {
+void check_effects(TomlSection& section, const ConcealDraw& draw,
+                   const std::vector<data::BenchKind>& rigs) {
   std::vector<std::string_view> known;
   for (const data::HiddenRow& row : data::hidden_effects()) {
-    if (!row.id.starts_with("unknown:")) known.push_back(row.id);
+    if (data::hidden_class(row.id) == data::HiddenClass::named) known.push_back(row.id);
   }
   for (const std::string& id : draw.effects) {
     if (std::ranges::find(known, std::string_view(id)) != known.end()) continue;
@@ -59,7 +73,7 @@ void check_effects(TomlSection& section, const ConcealDraw& draw, const std::vec
                    suggestion(id, known));
     return;
   }
-  for (const Rig rig : rigs) {
+  for (const data::BenchKind rig : rigs) {
     if (!check_rig(section, draw, rig)) return;
   }
 }
@@ -76,12 +90,18 @@ std::optional<double> read_bounded(TomlSection& section, std::string_view key, d
   return std::nullopt;
 }
 
-std::optional<Rig> read_rig(TomlSection& section, std::string_view key) {
+std::vector<std::string_view> bench_kind_names() {
+  std::vector<std::string_view> names;
+  for (const data::BenchKind kind : data::bench_kinds()) names.push_back(name_of(kind));
+  return names;
+}
+
+std::optional<data::BenchKind> read_rig(TomlSection& section, std::string_view key) {
   const std::string name = section.required_text(key);
-  const std::optional<Rig> rig = find_rig(name);
-  static constexpr std::string_view known[] = {"locked", "free", "specimen", "servo"};
+  const std::optional<data::BenchKind> rig = data::find_bench_kind(name);
   if (!rig && !name.empty()) {
-    section.refuse(key, fmt::format("unknown rig '{}'", name), suggestion(name, known));
+    section.refuse(key, fmt::format("unknown rig '{}'", name),
+                   suggestion(name, bench_kind_names()));
   }
   return rig;
 }
@@ -91,18 +111,17 @@ std::uint64_t read_seed(TomlSection& section) {
   return static_cast<std::uint64_t>(section.integer("seed", 0, kLargestSeed).value_or(1));
 }
 
-ConcealDraw read_draw(TomlSection& section, const std::vector<Rig>& rigs) {
+ConcealDraw read_draw(TomlSection& section, const std::vector<data::BenchKind>& rigs) {
   ConcealDraw draw;
   // Probabilities that are not written are none, so that a file says all there is.
-  draw.none = read_bounded(section, "none", 0.0, 1e6).value_or(0.0);
-  draw.one = read_bounded(section, "one", 0.0, 1e6).value_or(0.0);
-  draw.two = read_bounded(section, "two", 0.0, 1e6).value_or(0.0);
-  draw.unknown = read_bounded(section, "unknown", 0.0, 1e6).value_or(0.0);
-  draw.contained = read_bounded(section, "contained", 0.0, 1e6).value_or(0.0);
-  if (!(draw.none + draw.one + draw.two + draw.unknown + draw.contained > 0.0)) {
-    section.refuse("none", fmt::format("'{}' has no probability", section.name_of("none")),
-                   "give at least one of none, one, two, unknown, contained");
+  for (const KindKey& one : kKindKeys) {
+    draw.*one.share = read_bounded(section, one.key, 0.0, 1e6).value_or(0.0);
   }
+  if (!(whole(draw) > 0.0)) {
+    section.refuse("none", fmt::format("'{}' has no probability", section.name_of("none")),
+                   "give at least one of none, one, two, unknown, contained, variant, incident");
+  }
+  draw.disturbed = read_bounded(section, "disturbed", 0.0, 1.0).value_or(0.0);
   read_sizes(section, draw);
   draw.effects = section.texts("effects");
   check_effects(section, draw, rigs);

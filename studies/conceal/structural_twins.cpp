@@ -22,21 +22,28 @@ std::span<const StructuralTwin> structural_twins() {
   return rows;
 }
 
-std::vector<std::string> twins_of(std::string_view effect, Rig rig) {
+std::vector<std::string> twins_of(std::string_view effect, data::BenchKind rig) {
   std::vector<std::string> twins;
   for (const StructuralTwin& row : structural_twins()) {
-    if (std::ranges::find(row.rigs, rig) == row.rigs.end()) continue;
+    if (std::ranges::find(row.rigs, rig.rig) == row.rigs.end()) continue;
     if (row.effect == effect) twins.emplace_back(row.twin);
     if (row.twin == effect) twins.emplace_back(row.effect);
   }
   return twins;
 }
 
-std::vector<std::string> concealable(Rig rig, bool catalogued) {
+std::vector<std::string> concealable(data::BenchKind rig, data::HiddenClass of) {
   std::vector<std::string> ids;
   for (const data::HiddenRow& row : data::hidden_effects()) {
-    if (std::ranges::find(row.rigs, rig) == row.rigs.end()) continue;
-    if (row.id.starts_with("unknown:") != catalogued) ids.emplace_back(row.id);
+    if (row.shows_on(rig) && data::hidden_class(row.id) == of) ids.emplace_back(row.id);
+  }
+  return ids;
+}
+
+std::vector<std::string> disturbances_on(data::BenchKind rig) {
+  std::vector<std::string> ids;
+  for (const data::DisturbanceRow& row : data::disturbances()) {
+    if (std::ranges::find(row.kinds, rig) != row.kinds.end()) ids.emplace_back(row.id);
   }
   return ids;
 }

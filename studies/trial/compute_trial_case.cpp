@@ -114,7 +114,8 @@ std::string dependencies_of(const TrialConfig& trial, const TrialCase& one,
                        {"rig", name_of(one.plan.rig)},
                        {"seed", one.plan.seed},
                        {"time_limit", trial.time_limit},
-                       {"nuisances", one.plan.nuisances}};
+                       {"nuisances", one.plan.nuisances},
+                       {"disturbances", one.plan.disturbances}};
   for (const data::HiddenEffect& effect : one.plan.effects) {
     what["effects"].push_back({effect.id, effect.size_fraction});
   }

@@ -1,4 +1,5 @@
-#include <boost/math/distributions/beta.hpp>
+#include <algorithm>
+#include <cmath>
 
 #include "flexspline/studies/trial.hpp"
 
@@ -6,13 +7,16 @@ namespace flexspline::studies {
 
 Proportion proportion(int count, int of) {
   expects(count >= 0 && count <= of, "successes are among the trials");
-  constexpr double kTail = 0.025;
-  using Beta = boost::math::beta_distribution<double>;
+  constexpr double kNormal = 1.959963984540054;  // its 97.5 % quantile
   Proportion result{count, of, 0.0, 1.0};
-  if (count > 0) result.lower = boost::math::quantile(Beta(count, of - count + 1.0), kTail);
-  if (count < of) {
-    result.upper = boost::math::quantile(Beta(count + 1.0, of - count), 1.0 - kTail);
-  }
+  if (of == 0) return result;
+  const double n = of;
+  const double share = result.rate();
+  const double z2 = kNormal * kNormal / n;
+  const double centre = (share + 0.5 * z2) / (1.0 + z2);
+  const double half = kNormal * std::sqrt(share * (1.0 - share) / n + 0.25 * z2 / n) / (1.0 + z2);
+  result.lower = count == 0 ? 0.0 : std::max(0.0, centre - half);
+  result.upper = count == of ? 1.0 : std::min(1.0, centre + half);
   return result;
 }
 

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::string_view kSchema = "flexspline-trial/1";
 
-std::vector<Rig> read_rigs(TomlSection& root) {
-  static constexpr std::string_view known[] = {"locked", "free", "specimen", "servo"};
-  std::vector<Rig> rigs;
+std::vector<data::BenchKind> read_rigs(TomlSection& root) {
+  std::vector<data::BenchKind> rigs;
   for (const std::string& name : root.texts("rigs")) {
-    const std::optional<Rig> rig = find_rig(name);
+    const std::optional<data::BenchKind> rig = data::find_bench_kind(name);
     if (!rig) {
-      root.refuse("rigs", fmt::format("unknown rig '{}'", name), suggestion(name, known));
+      root.refuse("rigs", fmt::format("unknown rig '{}'", name),
+                  suggestion(name, bench_kind_names()));
     } else if (std::ranges::find(rigs, *rig) != rigs.end()) {
       root.refuse("rigs", fmt::format("rig '{}' stands there twice", name), "name it once");
     } else {

@@ -14,7 +14,8 @@ using Names = std::set<std::string, std::less<>>;
 CaseKind kind_of(const ConcealedAnswer& answer) {
   if (answer.effects.empty()) return CaseKind::null;
   for (const data::HiddenFinding& effect : answer.effects) {
-    if (effect.id.starts_with("unknown")) return CaseKind::unknown;
+    if (data::hidden_class(effect.id) == data::HiddenClass::incident) return CaseKind::incident;
+    if (data::hidden_class(effect.id) == data::HiddenClass::unknown) return CaseKind::unknown;
   }
   if (answer.effects.size() > 1) return CaseKind::pair;
   const auto contained = contained_on(answer.rig);
@@ -28,10 +29,19 @@ Names truth_of(const ConcealedAnswer& answer) {
   return names;
 }
 
-/// The truth and its twins: names that are not wrong.
+/// What is right for one effect: itself, the names of its row, its structural twins.
+Names class_of(const data::HiddenFinding& effect, data::BenchKind rig) {
+  Names names = {effect.id};
+  names.insert(effect.names.begin(), effect.names.end());
+  for (std::string& twin : twins_of(effect.id, rig)) names.insert(std::move(twin));
+  return names;
+}
+
 Names right_names(const ConcealedAnswer& answer) {
-  Names right = truth_of(answer);
-  right.insert(answer.twins.begin(), answer.twins.end());
+  Names right(answer.twins.begin(), answer.twins.end());
+  for (const data::HiddenFinding& effect : answer.effects) {
+    right.merge(class_of(effect, answer.rig));
+  }
   return right;
 }
 
@@ -51,12 +61,17 @@ std::string first_name(const ConcealedAnswer& answer, const Diagnosis& diagnosis
   return twin ? answer.effects.front().id : got.front();
 }
 
+bool is_left(Verdict verdict) {
+  return verdict == Verdict::unexplained || verdict == Verdict::partly_explained;
+}
+
 void score_location(const ConcealedAnswer& answer, const Diagnosis& diagnosis, CaseScore& score) {
   Names coordinates;
   for (const data::HiddenFinding& effect : answer.effects) {
     if (!effect.coordinate.empty()) coordinates.insert(effect.coordinate);
   }
-  score.has_coordinate = !coordinates.empty() && score.kind != CaseKind::contained;
+  score.has_coordinate =
+      !coordinates.empty() && score.kind != CaseKind::contained && score.kind != CaseKind::incident;
   for (std::size_t k = 0; k < std::min(kMismatches, diagnosis.mismatch.size()); ++k) {
     score.located = score.located || (score.has_coordinate &&
                                       coordinates.contains(diagnosis.mismatch[k].coordinate));
@@ -64,39 +79,69 @@ void score_location(const ConcealedAnswer& answer, const Diagnosis& diagnosis, C
 }
 
 void score_holdout(const ConcealedAnswer& answer, const HoldoutProof& holdout, CaseScore& score) {
+  score.over_noise = holdout.rmse_after / answer.noise_std;
   if (score.kind != CaseKind::single && score.kind != CaseKind::pair) return;
-  score.after_over_noise = holdout.rmse_after / answer.noise_std;
+  score.after_over_noise = score.over_noise;
   score.after_over_best = holdout.rmse_after / answer.best_rmse;
   score.gain_share =
       (holdout.rmse_before - holdout.rmse_after) / (holdout.rmse_before - answer.best_rmse);
 }
 
-void score_names(const ConcealedAnswer& answer, const Diagnosis& diagnosis,
-                 const std::vector<std::string>& got, CaseScore& score) {
-  const Names truth = truth_of(answer);
+NameScore score_names(const ConcealedAnswer& answer, CaseKind kind, Verdict verdict,
+                      const std::vector<std::string>& got) {
   const Names right = right_names(answer);
   const Names found(got.begin(), got.end());
-  const Verdict verdict = diagnosis.verdict;
-  score.null_right = score.kind == CaseKind::null && verdict == Verdict::adequate && got.empty();
-  score.unknown_right = score.kind == CaseKind::unknown && got.empty() &&
-                        (verdict == Verdict::unexplained || verdict == Verdict::partly_explained);
-  score.contained_right =
-      score.kind == CaseKind::contained &&
-      std::ranges::all_of(got, [&](const auto& name) { return right.contains(name); }) &&
-      (!got.empty() || verdict == Verdict::adequate);
-  if (score.kind == CaseKind::single) {
-    score.first_right = !got.empty() && right.contains(got.front());
+  const auto is_right = [&](const std::string& name) { return right.contains(name); };
+  NameScore score;
+  score.false_names = static_cast<int>(got.size() - std::ranges::count_if(got, is_right));
+  if (kind == CaseKind::contained) {
+    score.contained_right =
+        std::ranges::all_of(got, is_right) && (!got.empty() || verdict == Verdict::adequate);
+  }
+  if (kind == CaseKind::single) {
+    score.first_right = !got.empty() && is_right(got.front());
     score.exact = score.first_right && got.size() == 1;
   }
-  if (score.kind == CaseKind::pair) {
-    const auto is_found = [&](const std::string& effect) {
-      const auto twins = twins_of(effect, answer.rig);
-      return found.contains(effect) || std::ranges::any_of(twins, [&](const std::string& twin) {
-               return found.contains(twin);
-             });
+  if (kind == CaseKind::pair) {
+    const auto is_found = [&](const data::HiddenFinding& effect) {
+      return std::ranges::any_of(class_of(effect, answer.rig),
+                                 [&](const std::string& name) { return found.contains(name); });
     };
-    score.pair_both = std::ranges::all_of(truth, is_found);
-    score.pair_one = std::ranges::any_of(truth, is_found);
+    score.pair_both = std::ranges::all_of(answer.effects, is_found);
+    score.pair_one = std::ranges::any_of(answer.effects, is_found);
+  }
+  return score;
+}
+
+/// A place no shorter than the windows in which one is sought, about its middle.
+data::HiddenPlace widened(data::HiddenPlace place) {
+  constexpr double kWindow = 0.05;  // of a recording
+  const double lacks = kWindow * place.duration_s - (place.to_s - place.from_s);
+  if (lacks <= 0.0) return place;
+  place.from_s = std::max(0.0, place.from_s - 0.5 * lacks);
+  place.to_s = std::min(place.duration_s, place.to_s + 0.5 * lacks);
+  return place;
+}
+
+/// Intersection over union of two intervals of one recording.
+double overlap_of(const data::HiddenPlace& place, const Mismatch& mismatch) {
+  if (mismatch.recording != place.recording) return 0.0;
+  const double both = std::min(place.to_s, mismatch.to_s) - std::max(place.from_s, mismatch.from_s);
+  const double either =
+      std::max(place.to_s, mismatch.to_s) - std::min(place.from_s, mismatch.from_s);
+  return both > 0.0 ? both / either : 0.0;
+}
+
+void score_place(const ConcealedAnswer& answer, const Diagnosis& diagnosis, CaseScore& score) {
+  constexpr double kFound = 0.3;
+  for (const data::HiddenFinding& effect : answer.effects) {
+    if (!effect.place) continue;
+    score.overlap = 0.0;
+    for (std::size_t k = 0; k < std::min(kMismatches, diagnosis.mismatch.size()); ++k) {
+      score.overlap =
+          std::max(score.overlap, overlap_of(widened(*effect.place), diagnosis.mismatch[k]));
+    }
+    score.incident_found = diagnosis.verdict != Verdict::adequate && score.overlap >= kFound;
   }
 }
 
@@ -112,6 +157,8 @@ std::string_view name_of(CaseKind kind) {
       return "pair";
     case CaseKind::contained:
       return "contained";
+    case CaseKind::incident:
+      return "incident";
     case CaseKind::unknown:
       break;
   }
@@ -125,15 +172,22 @@ CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis) 
   if (score.failed) return score;
   const Names right = right_names(answer);
   std::vector<std::string> got;
+  std::vector<std::string> counted;
   for (const Cause& cause : diagnosis->causes) {
-    got.push_back(counted_name(cause, right));
-    score.false_names += right.contains(got.back()) ? 0 : 1;
+    got.push_back(cause.effect);
+    counted.push_back(counted_name(cause, right));
+    score.names.push_back({cause.effect, right.contains(cause.effect), cause.probability});
   }
+  static_cast<NameScore&>(score) = score_names(answer, score.kind, diagnosis->verdict, got);
+  score.with_alternatives = score_names(answer, score.kind, diagnosis->verdict, counted);
   score.named = static_cast<int>(got.size());
   score.detected = diagnosis->verdict != Verdict::adequate;
+  score.null_right = score.kind == CaseKind::null && !score.detected && got.empty();
+  score.unknown_right = (score.kind == CaseKind::unknown || score.kind == CaseKind::incident) &&
+                        got.empty() && is_left(diagnosis->verdict);
   score.first_name = first_name(answer, *diagnosis, got, right);
-  score_names(answer, *diagnosis, got, score);
   score_location(answer, *diagnosis, score);
+  score_place(answer, *diagnosis, score);
   score_holdout(answer, diagnosis->holdout, score);
   return score;
 }

@@ -14,10 +14,20 @@ int count(const std::vector<ScoredCase>& cases, const Counts& counts) {
       std::ranges::count_if(cases, [&counts](const ScoredCase& one) { return counts(one.score); }));
 }
 
-int sum(const std::vector<ScoredCase>& cases, int CaseScore::*member) {
+int sum(const std::vector<ScoredCase>& cases, const std::function<int(const CaseScore&)>& of) {
   int total = 0;
-  for (const ScoredCase& one : cases) total += one.score.*member;
+  for (const ScoredCase& one : cases) total += of(one.score);
   return total;
+}
+
+int unnamed(const std::vector<ScoredCase>& cases, CaseKind kind) {
+  return count(cases, [kind](const CaseScore& score) {
+    return score.kind == kind && !score.failed && score.named == 0;
+  });
+}
+
+int with_alternatives(const std::vector<ScoredCase>& cases, bool NameScore::*member) {
+  return count(cases, [member](const CaseScore& score) { return score.with_alternatives.*member; });
 }
 
 Counts is(CaseKind kind) {
@@ -35,7 +45,7 @@ double median_of(std::vector<double> values) {
 
 void add_counters(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   const auto add = [&](const char* name, int value) { scores.counters.emplace_back(name, value); };
-  const auto add_if = [&](const char* name, bool CaseScore::*member) {
+  const auto add_if = [&](const char* name, auto member) {
     add(name, count(cases, [member](const CaseScore& score) { return score.*member; }));
   };
   add("cases", static_cast<int>(cases.size()));
@@ -49,14 +59,22 @@ void add_counters(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add_if("pair_all", &CaseScore::pair_both);
   add_if("pair_one", &CaseScore::pair_one);
   add("unknown", count(cases, is(CaseKind::unknown)));
-  add_if("unknown_ok", &CaseScore::unknown_right);
-  add("unknown_unnamed", count(cases, [](const CaseScore& score) {
-        return score.kind == CaseKind::unknown && !score.failed && score.named == 0;
+  add("unknown_ok", count(cases, [](const CaseScore& score) {
+        return score.kind == CaseKind::unknown && score.unknown_right;
       }));
+  add("unknown_unnamed", unnamed(cases, CaseKind::unknown));
   add("contained", count(cases, is(CaseKind::contained)));
   add_if("contained_ok", &CaseScore::contained_right);
-  add("false_names", sum(cases, &CaseScore::false_names));
-  add("named", sum(cases, &CaseScore::named));
+  add("incident", count(cases, is(CaseKind::incident)));
+  add_if("incident_ok", &CaseScore::incident_found);
+  add("incident_unnamed", unnamed(cases, CaseKind::incident));
+  add("single_exact_or_alternative", with_alternatives(cases, &NameScore::exact));
+  add("pair_all_or_alternative", with_alternatives(cases, &NameScore::pair_both));
+  add("contained_ok_or_alternative", with_alternatives(cases, &NameScore::contained_right));
+  add("false_names", sum(cases, [](const CaseScore& score) { return score.false_names; }));
+  add("false_names_and_alternatives",
+      sum(cases, [](const CaseScore& score) { return score.with_alternatives.false_names; }));
+  add("named", sum(cases, [](const CaseScore& score) { return score.named; }));
   add_if("coord", &CaseScore::has_coordinate);
   add_if("coord_ok", &CaseScore::located);
 }
@@ -73,16 +91,24 @@ void add_rates(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add("unknown_ok", "unknown_ok", "unknown");
   add("unknown_unnamed", "unknown_unnamed", "unknown");
   add("contained_ok", "contained_ok", "contained");
+  add("incident_ok", "incident_ok", "incident");
+  add("incident_unnamed", "incident_unnamed", "incident");
+  add("single_exact_or_alternative", "single_exact_or_alternative", "single");
+  add("pair_all_or_alternative", "pair_all_or_alternative", "pair");
+  add("contained_ok_or_alternative", "contained_ok_or_alternative", "contained");
   add("coord_ok", "coord_ok", "coord");
   const int falsely = count(cases, [](const CaseScore& score) { return score.false_names > 0; });
   const int diagnosed = scores.counter("cases") - scores.counter("failed");
   scores.rates.emplace_back("false_name", proportion(falsely, diagnosed));
+  const int beside =
+      count(cases, [](const CaseScore& score) { return score.with_alternatives.false_names > 0; });
+  scores.rates.emplace_back("false_name_and_alternatives", proportion(beside, diagnosed));
 }
 
 /// Where there are locked rigs, of these alone: there the effort is one sensor's, whose noise is
 /// known, and practice cases are scored so.
 double median_of(const std::vector<ScoredCase>& cases, double CaseScore::*member) {
-  const auto locked = [](const ScoredCase& one) { return one.answer.rig == Rig::locked; };
+  const auto locked = [](const ScoredCase& one) { return one.answer.rig.rig == Rig::locked; };
   const bool any = std::ranges::any_of(cases, locked);
   std::vector<double> values;
   for (const ScoredCase& one : cases) {

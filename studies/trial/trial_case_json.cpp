@@ -34,33 +34,65 @@ double number(const ordered_json& json, const char* key) {
 }
 
 CaseKind kind_of(const std::string& name) {
-  for (const CaseKind kind :
-       {CaseKind::null, CaseKind::single, CaseKind::pair, CaseKind::contained}) {
+  for (const CaseKind kind : {CaseKind::null, CaseKind::single, CaseKind::pair, CaseKind::contained,
+                              CaseKind::incident}) {
     if (name_of(kind) == name) return kind;
   }
   return CaseKind::unknown;
 }
 
-CaseScore score_from_json(const ordered_json& json) {
-  CaseScore score;
-  score.kind = kind_of(json.at("kind").get<std::string>());
-  score.failed = json.at("failed").get<bool>();
-  score.null_right = json.at("null_right").get<bool>();
-  score.detected = json.at("detected").get<bool>();
+NameScore name_score_from_json(const ordered_json& json) {
+  NameScore score;
   score.first_right = json.at("first_right").get<bool>();
   score.exact = json.at("exact").get<bool>();
   score.pair_both = json.at("pair_both").get<bool>();
   score.pair_one = json.at("pair_one").get<bool>();
-  score.unknown_right = json.at("unknown_right").get<bool>();
   score.contained_right = json.at("contained_right").get<bool>();
-  score.named = json.at("named").get<int>();
   score.false_names = json.at("false_names").get<int>();
+  return score;
+}
+
+ordered_json name_score_json(const NameScore& score) {
+  return {{"first_right", score.first_right},
+          {"exact", score.exact},
+          {"pair_both", score.pair_both},
+          {"pair_one", score.pair_one},
+          {"contained_right", score.contained_right},
+          {"false_names", score.false_names}};
+}
+
+ordered_json names_json(const std::vector<GivenName>& names) {
+  ordered_json list = ordered_json::array();
+  for (const GivenName& one : names) {
+    list.push_back(
+        {{"effect", one.effect}, {"right", one.right}, {"probability", one.probability}});
+  }
+  return list;
+}
+
+CaseScore score_from_json(const ordered_json& json) {
+  CaseScore score;
+  static_cast<NameScore&>(score) = name_score_from_json(json);
+  score.with_alternatives = name_score_from_json(json.at("with_alternatives"));
+  for (const ordered_json& one : json.at("names")) {
+    score.names.push_back({one.at("effect").get<std::string>(), one.at("right").get<bool>(),
+                           number(one, "probability")});
+  }
+  score.kind = kind_of(json.at("kind").get<std::string>());
+  score.failed = json.at("failed").get<bool>();
+  score.null_right = json.at("null_right").get<bool>();
+  score.detected = json.at("detected").get<bool>();
+  score.unknown_right = json.at("unknown_right").get<bool>();
+  score.named = json.at("named").get<int>();
   score.has_coordinate = json.at("has_coordinate").get<bool>();
   score.located = json.at("located").get<bool>();
   score.first_name = json.at("first_name").get<std::string>();
   score.after_over_noise = number(json, "after_over_noise");
   score.after_over_best = number(json, "after_over_best");
   score.gain_share = number(json, "gain_share");
+  score.incident_found = json.at("incident_found").get<bool>();
+  score.overlap = number(json, "overlap");
+  score.over_noise = number(json, "over_noise");
   return score;
 }
 
@@ -94,24 +126,24 @@ ordered_json excerpt_of(const Diagnosis& diagnosis) {
 }
 
 ordered_json to_json(const CaseScore& score) {
-  return {{"kind", name_of(score.kind)},
-          {"failed", score.failed},
-          {"null_right", score.null_right},
-          {"detected", score.detected},
-          {"first_right", score.first_right},
-          {"exact", score.exact},
-          {"pair_both", score.pair_both},
-          {"pair_one", score.pair_one},
-          {"unknown_right", score.unknown_right},
-          {"contained_right", score.contained_right},
-          {"named", score.named},
-          {"false_names", score.false_names},
-          {"has_coordinate", score.has_coordinate},
-          {"located", score.located},
-          {"first_name", score.first_name},
-          {"after_over_noise", score.after_over_noise},
-          {"after_over_best", score.after_over_best},
-          {"gain_share", score.gain_share}};
+  ordered_json json = {{"kind", name_of(score.kind)}, {"failed", score.failed}};
+  json.update(name_score_json(score));
+  json.update({{"null_right", score.null_right},
+               {"detected", score.detected},
+               {"unknown_right", score.unknown_right},
+               {"incident_found", score.incident_found},
+               {"overlap", score.overlap},
+               {"named", score.named},
+               {"has_coordinate", score.has_coordinate},
+               {"located", score.located},
+               {"first_name", score.first_name},
+               {"with_alternatives", name_score_json(score.with_alternatives)},
+               {"names", names_json(score.names)},
+               {"over_noise", score.over_noise},
+               {"after_over_noise", score.after_over_noise},
+               {"after_over_best", score.after_over_best},
+               {"gain_share", score.gain_share}});
+  return json;
 }
 
 ordered_json to_json(const std::vector<EffectTrace>& traces) {

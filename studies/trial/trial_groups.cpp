@@ -84,7 +84,7 @@ Confusion confusion_of(const std::vector<ScoredCase>& cases) {
   return confusion;
 }
 
-std::vector<ScoredCase> of_rig(const std::vector<ScoredCase>& cases, Rig rig) {
+std::vector<ScoredCase> of_rig(const std::vector<ScoredCase>& cases, data::BenchKind rig) {
   std::vector<ScoredCase> some = cases;
   std::erase_if(some, [rig](const ScoredCase& one) { return one.answer.rig != rig; });
   return some;

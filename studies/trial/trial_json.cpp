@@ -32,7 +32,8 @@ ordered_json case_json(const ScoredCase& one) {
       {"verdict", one.verdict},
       {"named", one.named},
       {"right", one.score.null_right || one.score.exact || one.score.pair_both ||
-                    one.score.unknown_right || one.score.contained_right},
+                    one.score.contained_right || one.score.incident_found ||
+                    (one.score.kind == CaseKind::unknown && one.score.unknown_right)},
       {"after_over_noise", one.score.after_over_noise},
       {"seconds", one.seconds},
       {"failure", one.failure.empty() ? ordered_json(nullptr) : ordered_json(one.failure)}};
@@ -47,7 +48,7 @@ ordered_json case_json(const ScoredCase& one) {
 
 ordered_json design_json(const TrialConfig& trial) {
   ordered_json rigs = ordered_json::array();
-  for (const Rig rig : trial.rigs) rigs.push_back(name_of(rig));
+  for (const data::BenchKind rig : trial.rigs) rigs.push_back(name_of(rig));
   const ConcealDraw& draw = trial.draw;
   return {{"seed", trial.seed},
           {"cases", trial.cases},
@@ -57,6 +58,9 @@ ordered_json design_json(const TrialConfig& trial) {
           {"two", draw.two},
           {"unknown", draw.unknown},
           {"contained", draw.contained},
+          {"variant", draw.variant},
+          {"incident", draw.incident},
+          {"disturbed", draw.disturbed},
           {"size_fraction", {draw.smallest, draw.largest}},
           {"effects", draw.effects},
           {"nuisances", trial.nuisances},
@@ -121,7 +125,7 @@ ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary,
                        {"scores", scores_json(score_trial(summary.cases))},
                        {"scores_seen", scores_json(score_trial(that_can_be_seen(summary.cases)))},
                        {"by_rig", ordered_json::object()}};
-  for (const Rig rig : trial.rigs) {
+  for (const data::BenchKind rig : trial.rigs) {
     json["by_rig"][std::string(name_of(rig))] =
         scores_json(score_trial(of_rig(summary.cases, rig)));
   }

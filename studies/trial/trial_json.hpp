@@ -43,7 +43,7 @@ using Confusion = std::map<std::pair<std::string, std::string>, int>;
 Confusion confusion_of(const std::vector<ScoredCase>& cases);
 
 /// The cases of one rig, and of one single effect on it.
-std::vector<ScoredCase> of_rig(const std::vector<ScoredCase>& cases, Rig rig);
+std::vector<ScoredCase> of_rig(const std::vector<ScoredCase>& cases, data::BenchKind rig);
 std::map<std::pair<std::string, std::string>, std::vector<ScoredCase>> by_effect(
     const std::vector<ScoredCase>& cases);
 

@@ -40,7 +40,7 @@ TextTable scores(const TrialSummary& summary) {
   TextTable table{"scores", {{"score", "all", "that can be seen"}}};
   std::vector<TrialScores> columns = {score_trial(summary.cases),
                                       score_trial(that_can_be_seen(summary.cases))};
-  for (const Rig rig : {Rig::locked, Rig::free, Rig::specimen, Rig::servo}) {
+  for (const data::BenchKind rig : data::bench_kinds()) {
     const auto some = of_rig(summary.cases, rig);
     if (some.empty()) continue;
     columns.push_back(score_trial(some));

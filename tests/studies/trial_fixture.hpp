@@ -8,13 +8,15 @@
 namespace flexspline::studies {
 
 /// An answer on a rig, put together by hand: each effect of 5 % in its catalogue's coordinate.
-inline ConcealedAnswer answer_with(Rig rig, const std::vector<std::string>& ids) {
+inline ConcealedAnswer answer_with(data::BenchKind rig, const std::vector<std::string>& ids) {
   ConcealedAnswer answer;
   answer.rig = rig;
   for (const std::string& id : ids) {
     data::HiddenFinding effect;
     effect.id = id;
-    effect.coordinate = (*data::find_hidden_effect(id))->coordinate;
+    const data::HiddenRow& row = **data::find_hidden_effect(id);
+    effect.coordinate = row.coordinate;
+    effect.names.assign(row.names.begin(), row.names.end());
     effect.size_fraction = 0.05;
     answer.effects.push_back(effect);
     for (const std::string& twin : twins_of(id, rig)) answer.twins.push_back(twin);
@@ -52,14 +54,23 @@ inline Diagnosis right_diagnosis(const ConcealedAnswer& answer) {
   std::vector<std::string> coordinates;
   bool unknown = false;
   for (const data::HiddenFinding& effect : answer.effects) {
-    unknown = unknown || effect.id.starts_with("unknown:");
-    if (!effect.id.starts_with("unknown:")) causes.push_back(cause(effect.id));
+    const data::HiddenClass kind = data::hidden_class(effect.id);
+    const bool named = kind == data::HiddenClass::named || kind == data::HiddenClass::variant;
+    unknown = unknown || !named;
+    if (named) causes.push_back(cause(effect.names.empty() ? effect.id : effect.names.front()));
     coordinates.push_back(effect.coordinate);
   }
   const Verdict verdict = unknown          ? Verdict::unexplained
                           : causes.empty() ? Verdict::adequate
                                            : Verdict::explained;
   Diagnosis diagnosis = diagnosis_with(verdict, causes, coordinates);
+  for (std::size_t k = 0; k < answer.effects.size(); ++k) {
+    const auto& place = answer.effects[k].place;
+    if (!place) continue;
+    diagnosis.mismatch[k].recording = place->recording;
+    diagnosis.mismatch[k].from_s = place->from_s;
+    diagnosis.mismatch[k].to_s = place->to_s;
+  }
   diagnosis.holdout.rmse_after = answer.best_rmse;
   return diagnosis;
 }

@@ -225,7 +225,7 @@ TEST(PlanOfATrial, HasItsSharesAndTriesEveryEffect) {
   trial.draw = {
       .none = 0.2, .one = 0.4, .two = 0.15, .unknown = 0.1, .contained = 0.15, .effects = {}};
   std::map<std::string, int> counts;
-  std::map<std::pair<Rig, std::string>, int> singles;
+  std::map<std::pair<data::BenchKind, std::string>, int> singles;
   for (const TrialCase& one : plan_trial(trial)) {
     const auto& effects = one.plan.effects;
     ++counts[kind_of(one.plan)];
@@ -240,8 +240,8 @@ TEST(PlanOfATrial, HasItsSharesAndTriesEveryEffect) {
   EXPECT_NEAR(counts["two"], 60, 4);
   EXPECT_NEAR(counts["unknown"], 40, 4);
   EXPECT_NEAR(counts["contained"], 60, 4);
-  for (const Rig rig : trial.rigs) {
-    for (const std::string& id : concealable(rig, true)) {
+  for (const data::BenchKind rig : trial.rigs) {
+    for (const std::string& id : concealable(rig, data::HiddenClass::named)) {
       EXPECT_GE((singles[{rig, id}]), 3) << id;
     }
   }

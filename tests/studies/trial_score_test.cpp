@@ -56,13 +56,15 @@ TEST(ScoreOfASingle, IsFirstButNotExactWithASecondName) {
 TEST(ScoreOfASingle, TakesTheFirstTwoAlternativesAndNoMore) {
   const auto second =
       score(kPlay, diagnosis_with(explained, {cause("soft_windup", {"x", "backlash"})}));
-  EXPECT_TRUE(second.exact);
-  EXPECT_EQ(second.false_names, 0);
-  EXPECT_EQ(second.first_name, "backlash");
+  EXPECT_TRUE(second.with_alternatives.exact);
+  EXPECT_EQ(second.with_alternatives.false_names, 0);
+  EXPECT_FALSE(second.exact) << "no class of the truth's says so";
+  EXPECT_EQ(second.false_names, 1);
+  EXPECT_EQ(second.first_name, "soft_windup");
   const auto third =
       score(kPlay, diagnosis_with(explained, {cause("soft_windup", {"x", "y", "backlash"})}));
-  EXPECT_FALSE(third.first_right);
-  EXPECT_EQ(third.false_names, 1);
+  EXPECT_FALSE(third.with_alternatives.first_right);
+  EXPECT_EQ(third.with_alternatives.false_names, 1);
 }
 
 TEST(ScoreOfASingle, TakesAStructuralTwinWhereItIsOne) {
@@ -207,30 +209,72 @@ TEST(ScoresOfATrial, OfNoCasesAreNotNumbers) {
   EXPECT_TRUE(std::isnan(scores.rate("null_ok").rate()));
 }
 
-TEST(ClopperPearson, HasTheClosedFormsAtTheEnds) {
-  // 0 of n: upper = 1 - 0.025^(1/n); n of n is its mirror.
+TEST(Wilson, HasTheClosedFormsAtTheEnds) {
+  // 0 of n: upper = z^2/(n + z^2); n of n is its mirror.
+  constexpr double kSquare = 1.959963984540054 * 1.959963984540054;
   const Proportion none = proportion(0, 20);
   EXPECT_EQ(none.lower, 0.0);
-  EXPECT_NEAR(none.upper, 1.0 - std::pow(0.025, 1.0 / 20.0), 1e-12);
+  EXPECT_NEAR(none.upper, kSquare / (20.0 + kSquare), 1e-12);
   const Proportion all = proportion(20, 20);
-  EXPECT_NEAR(all.lower, std::pow(0.025, 1.0 / 20.0), 1e-12);
+  EXPECT_NEAR(all.lower, 20.0 / (20.0 + kSquare), 1e-12);
   EXPECT_EQ(all.upper, 1.0);
   EXPECT_EQ(proportion(0, 0).upper, 1.0);
 }
 
-TEST(ClopperPearson, LeavesTheTailsOfTheBinomial) {
-  // P(X >= 3 | lower) = P(X <= 3 | upper) = 0.025 with X binomial of 10.
+TEST(Wilson, HasEndsThatTheScoreTestJustKeeps) {
+  // (share - p)^2 n = z^2 p (1 - p) at either end.
   const Proportion p = proportion(3, 10);
-  const auto term = [](int k, double q) {
-    return std::exp(std::lgamma(11.0) - std::lgamma(k + 1.0) - std::lgamma(11.0 - k)) *
-           std::pow(q, k) * std::pow(1.0 - q, 10 - k);
-  };
-  double below = 0.0;
-  double above = 1.0;
-  for (int k = 0; k <= 3; ++k) below += term(k, p.upper);
-  for (int k = 0; k < 3; ++k) above -= term(k, p.lower);
-  EXPECT_NEAR(below, 0.025, 1e-9);
-  EXPECT_NEAR(above, 0.025, 1e-9);
+  for (const double end : {p.lower, p.upper}) {
+    EXPECT_NEAR(std::abs(0.3 - end) / std::sqrt(end * (1.0 - end) / 10.0), 1.959963984540054, 1e-9);
+  }
+  EXPECT_LT(p.lower, 0.3);
+  EXPECT_GT(p.upper, 0.3);
+}
+
+TEST(ScoreOfAVariant, TakesTheNamesThatTheBenchSaysAreRight) {
+  const auto odd = answer_with(Rig::free, {"variant:kinematic_order"});
+  const auto right = score(odd, diagnosis_with(explained, {cause("kinematic_error")}));
+  EXPECT_EQ(right.kind, CaseKind::single);
+  EXPECT_TRUE(right.exact);
+  EXPECT_EQ(right.first_name, "variant:kinematic_order");
+  EXPECT_FALSE(score(odd, diagnosis_with(explained, {cause("encoder_eccentricity")})).exact);
+  const auto resolver = answer_with(Rig::free, {"variant:resolver_error"});
+  EXPECT_TRUE(score(resolver, diagnosis_with(explained, {cause("encoder_eccentricity")})).exact);
+}
+
+/// A burst from 4 s to 6 s of 20 s.
+ConcealedAnswer burst() {
+  ConcealedAnswer answer = answer_with(Rig::locked, {"incident:burst"});
+  answer.effects[0].place = data::HiddenPlace{"slow", 4.0, 6.0, 20.0};
+  return answer;
+}
+
+Diagnosis located(const std::string& recording, double from, double to) {
+  Diagnosis diagnosis = diagnosis_with(unexplained, {}, {"window"});
+  diagnosis.mismatch[0].recording = recording;
+  diagnosis.mismatch[0].from_s = from;
+  diagnosis.mismatch[0].to_s = to;
+  return diagnosis;
+}
+
+TEST(ScoreOfAnIncident, WantsItsRecordingAndItsInterval) {
+  const CaseScore right = score(burst(), located("slow", 4.5, 6.5));
+  EXPECT_EQ(right.kind, CaseKind::incident);
+  EXPECT_TRUE(right.incident_found && right.unknown_right);
+  EXPECT_NEAR(right.overlap, 1.5 / 2.5, 1e-12) << "intersection over union";
+  EXPECT_FALSE(score(burst(), located("fast", 4.5, 6.5)).incident_found);
+  EXPECT_FALSE(score(burst(), located("slow", 0.0, 20.0)).incident_found)
+      << "all of it is no place";
+  EXPECT_FALSE(score(burst(), located("slow", 7.0, 8.0)).incident_found);
+  Diagnosis blind = located("slow", 4.0, 6.0);
+  blind.verdict = adequate;
+  EXPECT_FALSE(score(burst(), blind).incident_found);
+}
+
+TEST(ScoreOfAnIncident, WidensWhatIsShorterThanAWindow) {
+  ConcealedAnswer glitch = burst();
+  glitch.effects[0].place = data::HiddenPlace{"slow", 4.0, 4.1, 20.0};
+  EXPECT_NEAR(score(glitch, located("slow", 3.55, 4.55)).overlap, 1.0, 1e-12);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ HiddenRow describe_direction_asymmetry() {
       .site = HiddenSite::motor,
       .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
       .dissipates = true,
-      .make = make};
+      .make = make,
+      .joint = true};
 }
 
 }  // namespace flexspline::data

@@ -20,7 +20,8 @@ HiddenRow describe_inertia_torque() {
           .site = HiddenSite::load,
           .rigs = {Rig::locked, Rig::free, Rig::specimen},
           .dissipates = false,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

@@ -4,16 +4,23 @@ namespace flexspline::data {
 namespace {
 
 HiddenLaw make(const HiddenScale& scale, double amount) {
-  const double swing = amount * scale.motor_torque / 1.7;
-  const double width = 0.03 * scale.motor_speed;
+  const double swing = amount * scale.friction_torque() / 1.7;
+  const double width = 0.03 * scale.friction_speed();
   const double p1 = scale.draw("position_dependent_friction", 0, 0.0, 6.2);
   const double p2 = scale.draw("position_dependent_friction", 1, 0.0, 6.2);
   HiddenLaw law;
   law.parameters = {{"amplitude_order_1", swing, "Nm"}, {"amplitude_order_2", 0.7 * swing, "Nm"}};
-  law.motor = [=](const MotorPoint& x) {
-    const double turn = std::sin(x.angle + p1) + 0.7 * std::sin(2.0 * x.angle + p2);
-    return swing * turn * soft_sign(x.velocity, width);
+  const auto friction = [=](double angle, double speed) {
+    const double turn = std::sin(angle + p1) + 0.7 * std::sin(2.0 * angle + p2);
+    return swing * turn * soft_sign(speed, width);
   };
+  if (scale.travels) {
+    law.load = [=, ratio = scale.gear->gear_ratio](const LoadPoint& x) {
+      return friction(ratio * x.angle, x.velocity);
+    };
+  } else {
+    law.motor = [=](const MotorPoint& x) { return friction(x.angle, x.velocity); };
+  }
   return law;
 }
 
@@ -26,7 +33,8 @@ HiddenRow describe_position_dependent_friction() {
           .site = HiddenSite::motor,
           .rigs = {Rig::free, Rig::servo},
           .dissipates = false,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

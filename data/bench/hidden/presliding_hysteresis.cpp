@@ -10,8 +10,9 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const bool servo = scale.rig == Rig::servo;
   const double travel = servo ? scale.motion * scale.gear->gear_ratio : scale.torsion;
   const double height = amount * (servo ? scale.motor_torque : scale.torque);
-  const double width =
-      scale.draw("presliding_hysteresis", 0, 0.08, 0.25) * travel * (servo ? 0.3 : 1.0);
+  // Of a joint's travel presliding is a small part.
+  const double part = servo ? 0.3 : (scale.travels ? 0.1 : 1.0);
+  const double width = scale.draw("presliding_hysteresis", 0, 0.08, 0.25) * travel * part;
   auto memory = std::make_shared<EverettMemory>(EverettShape{height, width, 2.0 * travel});
   HiddenLaw law;
   law.parameters = {{"height", height, "Nm"}, {"width", width, "rad"}};
@@ -38,7 +39,8 @@ HiddenRow describe_presliding_hysteresis() {
           .site = HiddenSite::transmission,
           .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
           .dissipates = true,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

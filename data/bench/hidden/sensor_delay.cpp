@@ -21,7 +21,8 @@ HiddenRow describe_sensor_delay() {
           .site = HiddenSite::torque_sensor,
           .rigs = {Rig::locked, Rig::free, Rig::specimen},
           .dissipates = false,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

@@ -24,7 +24,8 @@ HiddenRow describe_stribeck_friction() {
           .site = HiddenSite::motor,
           .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
           .dissipates = true,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

@@ -24,7 +24,8 @@ HiddenRow describe_thermal_friction_drift() {
           .site = HiddenSite::motor,
           .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
           .dissipates = true,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

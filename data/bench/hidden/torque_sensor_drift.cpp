@@ -25,7 +25,8 @@ HiddenRow describe_torque_sensor_drift() {
           .site = HiddenSite::torque_sensor,
           .rigs = {Rig::locked, Rig::free, Rig::specimen},
           .dissipates = false,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

@@ -20,7 +20,8 @@ HiddenRow describe_unknown_cross() {
           .site = HiddenSite::load,
           .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo},
           .dissipates = false,
-          .make = make};
+          .make = make,
+          .joint = true};
 }
 
 }  // namespace flexspline::data

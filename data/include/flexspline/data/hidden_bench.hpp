@@ -1,7 +1,9 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +47,22 @@ struct HiddenExcitation {
   int samples = 700;
 };
 
+/// Which bench: a rig; or a specimen whose angle travels, a joint moved alone between position
+/// loop and torque sensor.
+struct BenchKind {
+  Rig rig = Rig::locked;
+  bool travels = false;
+
+  BenchKind() = default;
+  BenchKind(Rig of, bool is_joint = false) : rig(of), travels(is_joint) {}  // NOLINT: a rig is one
+  friend auto operator<=>(const BenchKind&, const BenchKind&) = default;
+};
+
+/// The rig's name; "joint" where the angle travels.
+std::string_view name_of(BenchKind kind);
+std::optional<BenchKind> find_bench_kind(std::string_view name);
+std::span<const BenchKind> bench_kinds();
+
 /// What the instruments add. Shares of noise are of the peak torque of the same sensor.
 struct HiddenNuisances {
   double torque_noise = 0.0;         ///< rms share, white and coloured together
@@ -58,6 +76,9 @@ struct HiddenNuisances {
   double motor_torque_offset = 0.0;  ///< of the motor torque's channel, over its noise's rms
   double zero_spread = 0.0;         ///< rad at the output: each recording's zero, beside angle_zero
   double temperature_spread = 0.0;  ///< K: each recording's gear is warmer or colder by up to this
+  double load_zero = 0.0;           ///< rad: the load encoder's zero is off by this
+  double filter_samples = 0.0;  ///< time constant over the interval: one low pass on every channel
+  int tail_degrees = 0;         ///< noise of Student's t with so many degrees of freedom; 0: normal
 };
 
 /// A whole bench, drawn or put together by hand.
@@ -67,6 +88,9 @@ struct HiddenBench {
   HiddenGear gear;
   std::vector<HiddenExcitation> design;
   HiddenNuisances nuisances;
+  bool travels = false;  ///< a specimen that is a joint: f is of the angle, neither odd nor rising
+
+  BenchKind kind() const { return {rig, travels}; }
 };
 
 /// The equation whose residual an effect's size is measured in: the drive is that of a servo, motor
@@ -87,6 +111,14 @@ struct HiddenParameter {
   std::string unit;
 };
 
+/// An interval of one recording, s on that recording's clock.
+struct HiddenPlace {
+  std::string recording;
+  double from_s = 0.0;
+  double to_s = 0.0;
+  double duration_s = 0.0;  ///< of the recording
+};
+
 /// What was concealed, as it came out.
 struct HiddenFinding {
   std::string id;
@@ -94,6 +126,8 @@ struct HiddenFinding {
   HiddenEquation equation = HiddenEquation::torsion;
   double size_fraction = 0.0;  ///< measured, alone on the bench
   std::vector<HiddenParameter> parameters;
+  std::vector<std::string> names{};    ///< right names beside the id
+  std::optional<HiddenPlace> place{};  ///< where it is confined to
 };
 
 struct HiddenAnswer {
@@ -117,8 +151,16 @@ struct HiddenScale;  // how large things are on a bench, bench/hidden_law.hpp
 /// Where an effect enters.
 enum class HiddenSite { transmission, load, motor, torque_sensor, motor_sensor, encoder };
 
+/// What the right answer to a hidden effect is, told by the id: its name; for "variant:..." one of
+/// the row's names, in another form than the catalogue's; for "unknown:..." that something is left
+/// without a name, in the row's coordinate; for "incident:..." the same, and its recording and
+/// interval.
+enum class HiddenClass { named, variant, unknown, incident };
+
+HiddenClass hidden_class(std::string_view id);
+
 /// A row of the catalogue of concealable effects, one file each in data/bench/hidden. Ids and
-/// coordinates are those of diagnoses; "unknown:..." ones are in no catalogue.
+/// coordinates are those of diagnoses.
 struct HiddenRow {
   std::string_view id;
   std::string_view coordinate;
@@ -127,9 +169,28 @@ struct HiddenRow {
   std::vector<Rig> rigs;
   bool dissipates = false;  ///< what it adds takes energy from every closed cycle
   HiddenLaw (*make)(const HiddenScale& scale, double amount) = nullptr;
+  bool joint = false;                     ///< a joint that travels shows it too
+  std::vector<std::string_view> names{};  ///< of a variant: the right ones
+
+  bool shows_on(BenchKind kind) const;
 };
 
 std::span<const HiddenRow> hidden_effects();
+
+/// A way in which sound benches differ, of which nothing is left out: the right answer is as if it
+/// were not there. One file each in data/bench/disturbances; apply draws its own amount from the
+/// seed and tells it.
+struct DisturbanceRow {
+  std::string_view id;
+  std::string_view says;
+  std::vector<BenchKind> kinds;
+  std::vector<HiddenParameter> (*apply)(HiddenBench& bench, std::uint64_t seed) = nullptr;
+};
+
+std::span<const DisturbanceRow> disturbances();
+
+/// Errors: usage, with every id there is.
+Result<const DisturbanceRow*> find_disturbance(std::string_view id);
 
 /// Errors: usage, with every id there is.
 Result<const HiddenRow*> find_hidden_effect(std::string_view id);
@@ -144,7 +205,8 @@ std::string_view name_of(HiddenMotion motion);
 /// From recording to recording the zero moves by half of that and the gear's temperature by up to
 /// 0.3 to 0.9 K: grease by 3.5 % a K, dry friction and the losses of the torsion by 1 % a K. On
 /// free the load asks for 1.05 times the rated torque at most.
-HiddenBench draw_hidden_bench(Rig rig, std::uint64_t seed);
+/// A joint has a travel of 0.5 to 0.9 rad, 0.1 to 0.6 rad/s, gravity and cables over the angle.
+HiddenBench draw_hidden_bench(BenchKind kind, std::uint64_t seed);
 
 /// Runs the bench with the effects and without any, deterministic by the bench's seed: neither the
 /// order of the effects nor that of the recordings matters, and size 0 is absence.

@@ -24,6 +24,9 @@ struct ConcealDraw {
   double two = 0.1;
   double unknown = 0.1;    ///< one effect that no catalogue has
   double contained = 0.0;  ///< one effect that the rig's baseline contains
+  double variant = 0.0;    ///< one catalogued effect in another form than the catalogue's
+  double incident = 0.0;   ///< a burst, step or glitch inside one recording
+  double disturbed = 0.0;  ///< share of the cases with a disturbance, whatever they hide
   double smallest = 0.02;  ///< size, share of peak torque
   double largest = 0.10;
   /// To draw one or two from; empty: all that the rig can conceal and its baseline does not
@@ -34,8 +37,9 @@ struct ConcealDraw {
 /// A bench with something to conceal, as read. SI.
 struct ConcealPlan {
   std::filesystem::path file;
-  Rig rig = Rig::locked;
+  data::BenchKind rig;
   std::uint64_t seed = 1;
+  std::vector<std::string> disturbances;       ///< ids of data::disturbances(), in their order
   std::vector<data::HiddenEffect> effects;     ///< empty: nothing is hidden
   std::optional<ConcealDraw> draw;             ///< instead of effects
   std::vector<data::HiddenExcitation> design;  ///< empty: drawn
@@ -65,7 +69,7 @@ struct StructuralTwin {
 };
 
 std::span<const StructuralTwin> structural_twins();
-std::vector<std::string> twins_of(std::string_view effect, Rig rig);
+std::vector<std::string> twins_of(std::string_view effect, data::BenchKind rig);
 
 /// An effect that a rig's baseline contains: what the fitted laws leave of it is less than a
 /// twentieth of its size (in the median of drawn benches). With it nothing was left out.
@@ -76,17 +80,25 @@ struct ContainedEffect {
 };
 
 std::span<const ContainedEffect> contained_effects();
-std::vector<std::string> contained_on(Rig rig);
+std::vector<std::string> contained_on(data::BenchKind rig);
 
-/// Ids that a rig can conceal: the catalogued ones, or those outside every catalogue.
-std::vector<std::string> concealable(Rig rig, bool catalogued);
+/// Ids of a class that a rig can conceal, and the disturbances that it can have.
+std::vector<std::string> concealable(data::BenchKind rig, data::HiddenClass of);
+std::vector<std::string> disturbances_on(data::BenchKind rig);
+
+/// What made a case different without leaving anything out.
+struct AppliedDisturbance {
+  std::string id;
+  std::vector<data::HiddenParameter> parameters;
+};
 
 /// The truth of a concealed case. Torques in Nm.
 struct ConcealedAnswer {
-  Rig rig = Rig::locked;
+  data::BenchKind rig;
   std::uint64_t seed = 0;
   std::vector<data::HiddenFinding> effects;  ///< by id; empty: nothing
   std::vector<std::string> twins;
+  std::vector<AppliedDisturbance> disturbances;
   double noise_std = 0.0;    ///< of the torque that is the rig's effort
   double peak_torque = 0.0;  ///< of the same
   double best_rmse = 0.0;    ///< what the true drive leaves of it: noise as it fell
@@ -94,7 +106,7 @@ struct ConcealedAnswer {
 };
 
 /// Keys as those of practice cases: rig, effects, size, coordinate, info, noise_std_nm, twins,
-/// tau_max; and seed, equation, best_rmse_nm, dataset_sha256.
+/// tau_max; and seed, equation, names, place, disturbances, best_rmse_nm, dataset_sha256.
 nlohmann::ordered_json to_json(const ConcealedAnswer& answer);
 
 /// What scoring needs of an answer. Errors: bad_data, naming the key.

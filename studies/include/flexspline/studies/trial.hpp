@@ -22,7 +22,7 @@ struct TrialConfig {
   std::string name;
   std::string title;
   std::uint64_t seed = 1;
-  std::vector<Rig> rigs;
+  std::vector<data::BenchKind> rigs;
   int cases = 0;
   double time_limit = 180.0;  ///< s; a diagnosis that takes longer has failed
   ConcealDraw draw;
@@ -55,29 +55,46 @@ struct TrialCase {
 std::vector<TrialCase> plan_trial(const TrialConfig& trial);
 
 /// What a case was, by what it hides.
-enum class CaseKind { null, single, pair, unknown, contained };
+enum class CaseKind { null, single, pair, unknown, contained, incident };
 
 std::string_view name_of(CaseKind kind);
 
-/// A diagnosis held against the truth. An effect counts as found when it, a structural twin of it,
-/// or one of these among the first two alternatives is named.
-struct CaseScore {
-  CaseKind kind = CaseKind::null;
-  bool failed = false;       ///< no diagnosis
-  bool null_right = false;   ///< null: adequate, and no name
-  bool detected = false;     ///< the verdict is not adequate
-  bool first_right = false;  ///< single: the first name is the effect
+/// The names of a diagnosis held against the truth.
+struct NameScore {
+  bool first_right = false;  ///< single: the first name is right
   bool exact = false;        ///< single: and the only one
   bool pair_both = false;
   bool pair_one = false;
-  bool unknown_right = false;    ///< unknown: something is left out, and has no name
   bool contained_right = false;  ///< contained: adequate, or its own name and no other
-  int named = 0;                 ///< causes
   int false_names = 0;           ///< causes that are not there
-  bool located = false;          ///< a right coordinate among the first three mismatches
-  bool has_coordinate = false;   ///< the truth has one
-  std::string first_name;        ///< "adequate", "no name", or an effect; a twin is the truth
-  double after_over_noise = kNotComputed;  ///< hold-out after over the noise; named cases
+};
+
+/// A name as it was given. Shares of peak torque.
+struct GivenName {
+  std::string effect;
+  bool right = false;  ///< by the truth's class, whatever alternatives it was given with
+  double probability = kNotComputed;
+};
+
+/// A diagnosis held against the truth. Right is a name of the truth's class: the effect itself,
+/// what the bench says is right for it, or a structural twin.
+struct CaseScore : NameScore {
+  CaseKind kind = CaseKind::null;
+  bool failed = false;            ///< no diagnosis
+  bool null_right = false;        ///< null: adequate, and no name
+  bool detected = false;          ///< the verdict is not adequate
+  bool unknown_right = false;     ///< unknown, incident: something is left out, and has no name
+  bool incident_found = false;    ///< incident: its recording and interval are told
+  double overlap = kNotComputed;  ///< incident: intersection over union of the intervals
+  int named = 0;                  ///< causes
+  bool located = false;           ///< a right coordinate among the first three mismatches
+  bool has_coordinate = false;    ///< the truth has one
+  std::string first_name;         ///< "adequate", "no name", or an effect; a twin is the truth
+  /// The same where a cause counts as right, too, when one of its first two alternatives is.
+  NameScore with_alternatives;
+  std::vector<GivenName> names;
+  double over_noise = kNotComputed;        ///< hold-out after over the noise, whatever is hidden
+  double after_over_noise = kNotComputed;  ///< the same of named cases
   double after_over_best = kNotComputed;   ///< over what the true drive leaves
   double gain_share = kNotComputed;        ///< (before - after) / (before - best)
 };
@@ -113,8 +130,8 @@ struct ScoredCase {
 /// nothing, and those where nothing is hidden.
 std::vector<ScoredCase> that_can_be_seen(const std::vector<ScoredCase>& cases);
 
-/// An interval that contains a probability with 95 % confidence (Clopper and Pearson), from so many
-/// successes in so many trials. [0, 1] without trials.
+/// A share with the 95 % interval of Wilson (1927), from so many successes in so many trials: the
+/// probabilities p with |share - p| <= 1.96 sqrt(p (1 - p)/n). [0, 1] without trials.
 struct Proportion {
   int count = 0;
   int of = 0;
