@@ -2,9 +2,12 @@
 #include <chrono>
 
 #include "flexspline/estimators/method.hpp"
-#include "midpoint/locus.hpp"
+#include "midpoint/polynomial_estimate.hpp"
 
 namespace flexspline::estimators {
+
+MethodRow describe_midpoint_polynomial();
+
 namespace {
 
 double range(const TorsionRecord& record) {
@@ -20,7 +23,7 @@ Result<Estimate> fit(const FitProblem& problem) {
                    "mark one with split = \"train\"");
   }
   const auto widest = std::ranges::max_element(problem.records, {}, range);
-  const auto locus = midpoint_locus(*widest);
+  const auto locus = midpoint_locus(*widest, locus_speed(problem, describe_midpoint_polynomial()));
   if (!locus) return tl::unexpected(locus.error());
   Estimate estimate = polynomial_estimate("midpoint_polynomial", {*locus}, {*widest});
   if (problem.records.size() > 1) {
@@ -38,7 +41,7 @@ MethodRow describe_midpoint_polynomial() {
       .id = "midpoint_polynomial",
       .summary = "the paper's fit: midpoint locus of one loop, odd five-term polynomials, h = 1",
       .source = "Dhaouadi and Ghorbel (2003), eqs. (15)-(25)",
-      .options = {},
+      .options = {locus_speed_option()},
       .fit = fit};
 }
 

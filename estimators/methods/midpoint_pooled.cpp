@@ -1,9 +1,12 @@
 #include <chrono>
 
 #include "flexspline/estimators/method.hpp"
-#include "midpoint/locus.hpp"
+#include "midpoint/polynomial_estimate.hpp"
 
 namespace flexspline::estimators {
+
+MethodRow describe_midpoint_pooled();
+
 namespace {
 
 Result<Estimate> fit(const FitProblem& problem) {
@@ -12,11 +15,12 @@ Result<Estimate> fit(const FitProblem& problem) {
     return failure(ErrorCode::bad_data, "there is no recording to train on",
                    "mark one with split = \"train\"");
   }
+  const LocusSpeed speed = locus_speed(problem, describe_midpoint_pooled());
   std::vector<MidpointLocus> loci;
   std::vector<TorsionRecord> used;
   std::string left_out;
   for (const auto& record : problem.records) {
-    auto locus = midpoint_locus(record);
+    auto locus = midpoint_locus(record, speed);
     if (!locus) {
       left_out += (left_out.empty() ? "left out: " : "; ") + locus.error().message();
       continue;
@@ -40,7 +44,7 @@ MethodRow describe_midpoint_pooled() {
   return {.id = "midpoint_pooled",
           .summary = "the paper's fit to the midpoint loci of all training loops at once",
           .source = "Dhaouadi and Ghorbel (2003), eqs. (15)-(25), pooled",
-          .options = {},
+          .options = {locus_speed_option()},
           .fit = fit};
 }
 

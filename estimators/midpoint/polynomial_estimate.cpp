@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "flexspline/core/law.hpp"
-#include "midpoint/locus.hpp"
+#include "midpoint/polynomial_estimate.hpp"
 #include "uncertainty/bands.hpp"
 #include "uncertainty/covariance.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -25,16 +25,29 @@ struct Polynomial {
   double condition = 0.0;
 };
 
-Polynomial fit_polynomial(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<Eigen::Index>(x.size());
-  double scale = 0.0;
-  for (double value : x) scale = std::max(scale, std::abs(value));
-  Eigen::MatrixXd powers(n, kTerms);
-  for (Eigen::Index i = 0; i < n; ++i) {
+// Odd powers of x / scale, a row an argument.
+Eigen::MatrixXd odd_powers(const std::vector<double>& x, double scale) {
+  Eigen::MatrixXd powers(static_cast<Eigen::Index>(x.size()), kTerms);
+  for (Eigen::Index i = 0; i < powers.rows(); ++i) {
     const double u = x[static_cast<std::size_t>(i)] / scale;
     for (Eigen::Index k = 0; k < kTerms; ++k)
       powers(i, k) = std::pow(u, 2.0 * static_cast<double>(k) + 1.0);
   }
+  return powers;
+}
+
+double largest(const std::vector<double>& x) {
+  double most = 0.0;
+  for (double value : x) most = std::max(most, std::abs(value));
+  return most;
+}
+
+// y = [p(a) + p(b)] / 2, a polynomial over the larger of the two ranges.
+Polynomial fit_polynomial(const std::vector<double>& a, const std::vector<double>& b,
+                          const std::vector<double>& y) {
+  const auto n = static_cast<Eigen::Index>(y.size());
+  const double scale = std::max(largest(a), largest(b));
+  const Eigen::MatrixXd powers = 0.5 * (odd_powers(a, scale) + odd_powers(b, scale));
   const Eigen::Map<const Eigen::VectorXd> target(y.data(), n);
   const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(target);
   Polynomial result;
@@ -91,21 +104,44 @@ std::string monotone_note(std::string_view name, const Law& law) {
       name, 100.0 * share);
 }
 
+std::vector<double> joined(const std::vector<MidpointLocus>& loci,
+                           std::vector<double> MidpointLocus::*member) {
+  std::vector<double> all;
+  for (const auto& locus : loci) {
+    all.insert(all.end(), (locus.*member).begin(), (locus.*member).end());
+  }
+  return all;
+}
+
 }  // namespace
+
+OptionInfo locus_speed_option() {
+  return {.name = "speed",
+          .meaning =
+              "speed on the locus: that of the sine fitted to the motion, as in the paper, "
+              "or the derivative of the measured motion, averaged over its cycles",
+          .choices = {"pure_sine", "measured"}};
+}
+
+LocusSpeed locus_speed(const FitProblem& problem, const MethodRow& method) {
+  return word(problem, method, "speed") == "measured" ? LocusSpeed::measured
+                                                      : LocusSpeed::pure_sine;
+}
 
 Estimate polynomial_estimate(std::string estimator, const std::vector<MidpointLocus>& loci,
                              const std::vector<TorsionRecord>& records) {
-  std::vector<double> motion, midpoint, rate, distance;
-  double purity = 1.0;
-  for (const auto& locus : loci) {
-    motion.insert(motion.end(), locus.motion.begin(), locus.motion.end());
-    midpoint.insert(midpoint.end(), locus.midpoint.begin(), locus.midpoint.end());
-    rate.insert(rate.end(), locus.rate.begin(), locus.rate.end());
-    distance.insert(distance.end(), locus.distance.begin(), locus.distance.end());
-    purity = std::min(purity, locus.purity);
+  const auto motion = joined(loci, &MidpointLocus::motion);
+  const auto rising = joined(loci, &MidpointLocus::rising_rate);
+  const auto falling = joined(loci, &MidpointLocus::falling_rate);
+  auto midpoint = joined(loci, &MidpointLocus::midpoint);
+  const Polynomial g = fit_polynomial(rising, falling, joined(loci, &MidpointLocus::distance));
+  const auto g_law = make_law(g.law);
+  expects(g_law.has_value(), "a polynomial can be made");
+  for (std::size_t i = 0; i < midpoint.size(); ++i) {
+    midpoint[i] -= 0.5 * ((*g_law)->value(rising[i]) - (*g_law)->value(falling[i]));
   }
-  const Polynomial f = fit_polynomial(motion, midpoint);
-  const Polynomial g = fit_polynomial(rate, distance);
+  const Polynomial f = fit_polynomial(motion, motion, midpoint);
+  const double purity = std::ranges::min(loci, {}, &MidpointLocus::purity).purity;
   const bool linear = records.front().linear;
 
   Estimate estimate;
@@ -139,8 +175,7 @@ Estimate polynomial_estimate(std::string estimator, const std::vector<MidpointLo
       .verdict = "not_identifiable",
       .says = "the method assumes h = 1; what h does to the loop goes into g^-1 unseen"};
   const auto f_law = make_law(f.law);
-  const auto g_law = make_law(g.law);
-  expects(f_law && g_law, "polynomials can be made");
+  expects(f_law.has_value(), "a polynomial can be made");
   estimate.bands.push_back(law_band("f", **f_law, f.covariance, -f.law.scale, f.law.scale));
   estimate.bands.push_back(law_band("g_inverse", **g_law, g.covariance, -g.law.scale, g.law.scale));
   estimate.notes = {monotone_note("f", **f_law), monotone_note("g^-1", **g_law),

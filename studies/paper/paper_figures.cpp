@@ -83,10 +83,10 @@ Drawn prepare(const PaperExperiment& experiment, const Law& f, const Law& g) {
   }
   drawn.locus_torsion = in_degrees(locus.motion);
   drawn.locus_mean = locus.midpoint;
-  drawn.locus_speed = in_degrees(locus.rate);
+  drawn.locus_speed = in_degrees(locus.rising_rate);
   drawn.locus_half_difference = locus.distance;
   for (const double x : locus.motion) drawn.f.push_back(f.value(x));
-  for (const double v : locus.rate) drawn.g.push_back(g.value(v));
+  for (const double v : locus.rising_rate) drawn.g.push_back(g.value(v));
   // One sample more than a period, so that the loop closes.
   const double step = drawn.time[1] - drawn.time[0];
   const double start = drawn.time.back() - 2.0 * std::numbers::pi / omega - 0.5 * step;
