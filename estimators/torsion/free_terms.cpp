@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -18,6 +19,12 @@ constexpr double kTorqueLimit = 0.02;        // sd of a term's largest torque, o
 constexpr double kProbe = 0.9;               // of the range, where ln h is judged
 // Beyond it only the coarseness of the splines, not the recordings, would tell h from g^-1.
 constexpr double kLargestCosine = 0.999;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+double half_range(const PreparedRecord& one) {
+  const auto [low, high] = std::ranges::minmax(one.smooth.motion.position);
+  return 0.5 * (high - low);
+}
 
 std::vector<Eigen::Index> columns_of(const Group& group) {
   std::vector<Eigen::Index> list;
@@ -64,7 +71,30 @@ double largest_rate(const std::vector<PreparedRecord>& records) {
   return rate;
 }
 
-std::string says_of(double sd, double cosine, std::size_t records, bool free) {
+// Nominal words for what a recording of the same rig would look like.
+std::string motion_of(const PreparedRecord& widest, double share) {
+  const double motion = share * half_range(widest);
+  return widest.record.linear ? fmt::format("{:.3g} mm", 1e3 * motion)
+                              : fmt::format("{:.3g} deg", motion * kDegrees);
+}
+
+// A second amplitude or frequency tells h, a second frequency inertia and delay.
+std::string missing_recording(const std::vector<PreparedRecord>& records) {
+  const auto& widest = *std::ranges::max_element(records, {}, half_range);
+  if (!widest.smooth.steady) {
+    return fmt::format("a loop of half the amplitude ({}), or the same at half the speed",
+                       motion_of(widest, 0.5));
+  }
+  const double frequency = 1.0 / widest.smooth.steady->period;
+  return fmt::format(
+      "a loop of half the amplitude ({0} at {2:.3g} Hz) or at half the frequency "
+      "({1} at {3:.3g} Hz)",
+      motion_of(widest, 0.5), motion_of(widest, 1.0), frequency, 0.5 * frequency);
+}
+
+std::string says_of(double sd, double cosine, const std::vector<PreparedRecord>& recordings,
+                    bool free) {
+  const std::size_t records = recordings.size();
   if (free) {
     return fmt::format(
         "h can be told from f and g^-1 on these {} recordings: ln h to +-{:.2g} at "
@@ -74,9 +104,9 @@ std::string says_of(double sd, double cosine, std::size_t records, bool free) {
   return fmt::format(
       "h cannot be identified from {}: a direction of ln h lies within cosine {:.6f} of what f and "
       "g^-1 can do, so its standard deviation at 0.9 of the range would be {:.2g}. h = 1 is "
-      "assumed, not found; a second amplitude or frequency would decide it",
+      "assumed, not found. Missing: {}",
       records == 1 ? std::string("one recording") : fmt::format("these {} recordings", records),
-      cosine, sd);
+      cosine, sd, missing_recording(recordings));
 }
 
 }  // namespace
@@ -107,7 +137,7 @@ Result<TermDecision> decide_terms(const LinearStart& start,
   const bool tells = decision.log_h_std <= kLogModulationLimit && cosine <= kLargestCosine;
   decision.free.h = allowed.h && tells ? kModulationTerms : 0;
   decision.verdict = tells ? "identifiable" : "not_identifiable";
-  decision.says = says_of(decision.log_h_std, cosine, records.size(), tells);
+  decision.says = says_of(decision.log_h_std, cosine, records, tells);
   if (!allowed.h) {
     decision.verdict = "not_asked";
     decision.says = "h = 1 was set, so nothing is said of it";
@@ -128,8 +158,9 @@ Result<TermDecision> decide_terms(const LinearStart& start,
     const bool may = candidate.name == "inertia" ? allowed.inertia : allowed.delay;
     (candidate.name == "inertia" ? decision.free.inertia : decision.free.delay) = may && can;
     if (may && !can) {
-      decision.notes.push_back(fmt::format(
-          "{} is not fitted: f and g^-1 imitate it on these recordings", candidate.name));
+      decision.notes.push_back(
+          fmt::format("{} is not fitted: f and g^-1 imitate it on these recordings. Missing: {}",
+                      candidate.name, missing_recording(records)));
     }
   }
   return decision;

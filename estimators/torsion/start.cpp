@@ -27,6 +27,7 @@ struct Candidate {
   std::size_t f_sides;
   std::size_t g_sides;
   const std::vector<double>* velocity_knots;
+  const std::vector<double>* motion_knots = &kMotionKnots;
 };
 
 std::vector<Candidate> candidates() {
@@ -39,13 +40,14 @@ std::vector<Candidate> candidates() {
   return list;
 }
 
-LawSpec motion_law(const Ranges& ranges, bool travels, std::size_t sides, std::size_t& size) {
+LawSpec motion_law(const Ranges& ranges, bool travels, const Candidate& candidate,
+                   std::size_t& size) {
   const double scale = ranges.motion * kMotionMargin;
   if (!travels) {
-    size = sides * (kMotionKnots.size() + 3);
+    size = candidate.f_sides * (candidate.motion_knots->size() + 3);
     return {.law = "monotone_spline",
             .scale = scale,
-            .knots = kMotionKnots,
+            .knots = *candidate.motion_knots,
             .coefficients = {},
             .valid_to = ranges.motion};
   }
@@ -61,7 +63,7 @@ TorsionLayout layout_for(const std::vector<PreparedRecord>& records, const Range
                          const Candidate& candidate, FreeTerms free) {
   const bool travels = records.front().record.travels;
   std::size_t f_size = 0;
-  LawSpec f = motion_law(ranges, travels, candidate.f_sides, f_size);
+  LawSpec f = motion_law(ranges, travels, candidate, f_size);
   const std::vector<double>& velocity_knots = *candidate.velocity_knots;
   const LawSpec g{.law = "monotone_spline",
                   .scale = ranges.velocity * kVelocityMargin,
@@ -206,6 +208,20 @@ Result<LinearStart> chosen_start(const std::vector<PreparedRecord>& records, Fre
     }
   }
   return std::move(*best);
+}
+
+Result<LinearStart> even_start(const std::vector<PreparedRecord>& records, FreeTerms base,
+                               std::size_t intervals) {
+  std::vector<double> knots;
+  for (std::size_t k = 1; k < intervals; ++k) {
+    knots.push_back(static_cast<double>(k) / static_cast<double>(intervals));
+  }
+  const std::size_t f_sides = records.front().record.travels ? 1 : 2;
+  TorsionLayout layout =
+      layout_for(records, ranges_of(records, base.zeros), {f_sides, 2, &knots, &knots}, base);
+  auto fit = linear_fit(layout, records, Eigen::MatrixXd(rows_of(records), 0));
+  if (!fit) return tl::unexpected(fit.error());
+  return LinearStart{std::move(layout), std::move(fit->p)};
 }
 
 LinearStart with_terms(const LinearStart& start, FreeTerms free) {

@@ -28,6 +28,10 @@ Result<LinearStart> richest_start(const std::vector<PreparedRecord>& records, Fr
 Result<LinearStart> chosen_start(const std::vector<PreparedRecord>& records, FreeTerms base,
                                  const LinearStart& richest, FreeTerms beside);
 
+/// f and g^-1 monotone, with so many even intervals on each of two sides.
+Result<LinearStart> even_start(const std::vector<PreparedRecord>& records, FreeTerms base,
+                               std::size_t intervals);
+
 /// A layout with the same laws and other free terms, and its parameters.
 LinearStart with_terms(const LinearStart& start, FreeTerms free);
 

@@ -59,7 +59,7 @@ TEST(Trajectory, DoesNotPrintAnHThatOneLoopCannotShow) {
   EXPECT_EQ(estimate->identifiability.verdict, "not_identifiable");
   EXPECT_THAT(estimate->identifiability.says,
               AllOf(HasSubstr("h cannot be identified from one recording"),
-                    HasSubstr("a second amplitude or frequency")));
+                    HasSubstr("Missing: a loop of half the amplitude")));
   for (const auto& band : estimate->bands) EXPECT_NE(band.function, "h");
   for (const auto& one : estimate->parameters) EXPECT_THAT(one.name, Not(HasSubstr("h[")));
   EXPECT_TRUE(estimate->model.h.coefficients.empty());

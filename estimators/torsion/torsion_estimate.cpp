@@ -1,0 +1,72 @@
+#include "torsion/torsion_estimate.hpp"
+
+#include "uncertainty/bands.hpp"
+#include "uncertainty/estimate_parts.hpp"
+#include "uncertainty/torsion_intervals.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+std::vector<ParameterEstimate> parameters_of(const TrajectoryFit& fit, bool angular) {
+  const TorsionLayout& layout = fit.at.layout;
+  std::vector<ParameterEstimate> list;
+  for (std::size_t k = 0; k < fit.solution.p.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    list.push_back(parameter_estimate(layout.name(k), layout.unit(k, angular), fit.solution.p[k],
+                                      fit.covariance(i, i), fit.solution.bound_active[k]));
+  }
+  return list;
+}
+
+std::vector<FunctionBand> bands_of(const TrajectoryFit& fit,
+                                   const std::vector<PreparedRecord>& records) {
+  const Ranges ranges = ranges_of(records, fit.at.layout.free_terms().zeros);
+  const Domain domain{ranges.lowest_motion, ranges.highest_motion, ranges.velocity};
+  const Eigen::MatrixXd draws = draws_at_bounds(fit, records);
+  return draws.rows() > 0
+             ? torsion_bands(fit.at.layout, fit.solution.p, draws, domain, DrawnBands())
+             : torsion_bands(fit.at.layout, fit.solution.p, fit.covariance, domain);
+}
+
+void take(const Intervals& found, Estimate& estimate) {
+  for (std::size_t k = 0; k < found.lower.size(); ++k) {
+    estimate.parameters[k].ci95_lower = found.lower[k];
+    estimate.parameters[k].ci95_upper = found.upper[k];
+    if (!found.std.empty()) estimate.parameters[k].std = found.std[k];
+  }
+  estimate.notes.insert(estimate.notes.end(), found.notes.begin(), found.notes.end());
+}
+
+}  // namespace
+
+Result<Estimate> torsion_estimate(std::string estimator, TrajectoryFit fit, const StaticFit& begun,
+                                  const TorsionIntervalSettings& settings) {
+  const auto& records = begun.records;
+  const TermDecision& decision = begun.decision;
+  const auto found =
+      torsion_intervals(fit, records, settings.uncertainty, settings.solver, settings.integrator);
+  if (!found) return tl::unexpected(found.error());
+  if (found->covariance.size() > 0) fit.covariance = found->covariance;
+  Estimate estimate;
+  estimate.estimator = std::move(estimator);
+  estimate.model = fit.at.layout.model(fit.solution.p);
+  estimate.parameters = parameters_of(fit, !records.front().record.linear);
+  estimate.termination = fit.solution.termination;
+  estimate.cost = fit.solution.cost;
+  estimate.residual =
+      fit.direction == Direction::torsion
+          ? "torsion: innovations of eq. (3) integrated from the measured torque, in "
+            "standard deviations of their noise"
+          : "torque: eq. (4) along the measured motion, in standard deviations of "
+            "its noise";
+  estimate.fits = recording_fits(records, fit.linear.residual);
+  estimate.identifiability = {decision.condition, decision.absorbed, decision.verdict,
+                              decision.says};
+  estimate.bands = bands_of(fit, records);
+  estimate.notes = decision.notes;
+  estimate.evaluations = fit.solution.evaluations;
+  take(*found, estimate);
+  return estimate;
+}
+
+}  // namespace flexspline::estimators
