@@ -45,6 +45,7 @@ InputConfig input_from(const json& from, const fs::path& data_root) {
   input.truth = from.at("truth");
   input.dataset = found(from.at("dataset"), data_root);
   input.holdout = from.at("holdout");
+  if (from.contains("bench")) input.bench = bench_from(from.at("bench"));
   if (from.contains("held_out")) {
     input.held_out = from.at("held_out").get<std::vector<std::string>>();
   }
@@ -69,6 +70,10 @@ EstimatorConfig estimator_from(const json& from) {
   return estimator;
 }
 
+ContrastConfig contrast_from(const json& from) {
+  return {from.at("id"), from.at("title"), from.at("from"), from.at("to")};
+}
+
 StudyConfig study_from(const json& from, const fs::path& data_root) {
   StudyConfig study;
   study.name = from.at("name");
@@ -84,6 +89,9 @@ StudyConfig study_from(const json& from, const fs::path& data_root) {
   }
   for (const json& one : from.value("estimator", none)) {
     study.estimators.push_back(estimator_from(one));
+  }
+  for (const json& one : from.value("contrast", none)) {
+    study.contrasts.push_back(contrast_from(one));
   }
   return study;
 }

@@ -96,8 +96,7 @@ Grid read_grid(TomlSection& section) {
   return grid;
 }
 
-BenchConfig read_bench(TomlSection& section) {
-  BenchConfig bench;
+BenchConfig read_bench(TomlSection& section, BenchConfig bench) {
   const auto set = [&](double& member, std::string_view key, Dimension dimension) {
     member = section.quantity(key, dimension, 0.0).value_or(member);
   };

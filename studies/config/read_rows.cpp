@@ -106,6 +106,18 @@ std::optional<std::vector<std::string>> read_held_out(TomlSection& section,
   return ids;
 }
 
+/// How the bench records this input, where it says more than the study does.
+std::optional<BenchConfig> read_own_bench(TomlSection& section, const InputConfig& input,
+                                          const BenchConfig& otherwise) {
+  auto table = section.table("bench");
+  if (!table) return std::nullopt;
+  if (input.truth.empty()) {
+    section.refuse("bench", fmt::format("input '{}' is a data set, not recorded here", input.id),
+                   "leave 'bench' out");
+  }
+  return read_bench(*table, otherwise);
+}
+
 }  // namespace
 
 void check_id(TomlSection& section, const std::string& id, const std::vector<std::string>& before) {
@@ -143,6 +155,7 @@ InputConfig read_input(TomlSection& section, const StudyConfig& study,
   }
   check_grid(section, "holdout", input.holdout, study, {});
   input.held_out = read_held_out(section, input);
+  input.bench = read_own_bench(section, input, study.bench);
   if (input.dataset.is_relative() && !input.dataset.empty()) {
     input.dataset = (data_root / input.dataset).lexically_normal();
   }
@@ -184,6 +197,23 @@ EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study,
   }
   section.refuse_unknown_keys();
   return estimator;
+}
+
+ContrastConfig read_contrast(TomlSection& section, const StudyConfig& study) {
+  ContrastConfig contrast;
+  contrast.id = section.required_text("id");
+  contrast.title = section.text("title").value_or(contrast.id);
+  contrast.from = section.required_text("from");
+  contrast.to = section.required_text("to");
+  std::vector<std::string_view> names;
+  for (const EstimatorConfig& one : study.estimators) names.emplace_back(one.id);
+  for (const auto& [key, id] : {std::pair("from", contrast.from), std::pair("to", contrast.to)}) {
+    if (id.empty() || std::ranges::find(names, id) != names.end()) continue;
+    section.refuse(key, fmt::format("'{}' names no estimator '{}'", section.name_of(key), id),
+                   suggestion(id, names));
+  }
+  section.refuse_unknown_keys();
+  return contrast;
 }
 
 }  // namespace flexspline::studies

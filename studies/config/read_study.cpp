@@ -42,6 +42,8 @@ StudyConfig read_tables(TomlSection& root, const std::filesystem::path& data_roo
             [&](TomlSection& s) { return read_input(s, study, data_root); });
   read_rows(root, "estimator", study.estimators,
             [&](TomlSection& s) { return read_estimator(s, study, model_root); });
+  read_rows(root, "contrast", study.contrasts,
+            [&](TomlSection& s) { return read_contrast(s, study); });
   if (study.inputs.empty()) root.refuse("input", "the study has no input", "add an [[input]]");
   if (study.estimators.empty()) {
     root.refuse("estimator", "the study has no estimator", "add an [[estimator]]");

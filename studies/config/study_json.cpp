@@ -55,6 +55,7 @@ ordered_json to_json(const StudyConfig& study) {
                       {"truth", input.truth},
                       {"dataset", input.dataset.generic_string()},
                       {"holdout", input.holdout}});
+    if (input.bench) inputs.back()["bench"] = to_json(*input.bench);
     if (input.held_out) inputs.back()["held_out"] = *input.held_out;
   }
   ordered_json& rows = object["estimator"] = ordered_json::array();
@@ -67,6 +68,10 @@ ordered_json to_json(const StudyConfig& study) {
                     {"options", to_json(row.options)},
                     {"inputs", row.inputs}});
     if (row.model) rows.back()["model"] = to_json(*row.model);
+  }
+  for (const ContrastConfig& one : study.contrasts) {
+    object["contrast"].push_back(
+        {{"id", one.id}, {"title", one.title}, {"from", one.from}, {"to", one.to}});
   }
   return object;
 }

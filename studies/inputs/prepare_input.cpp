@@ -35,11 +35,12 @@ Result<PreparedInput> record_on_bench(const StudyConfig& study, const InputPlan&
   prepared.source = (*row)->source;
   std::vector<Recording> measured;
   std::vector<KnownTruth> truths;
+  const BenchConfig& bench = study.bench_of(*input.input);
   for (NamedLoop& named : loops_to_record(input)) {
     const data::BenchExcitation excitation{named.loop.amplitude, named.loop.frequency_hz,
-                                           study.bench.cycles, study.bench.samples_per_cycle};
-    Result<data::BenchRecording> made = data::make_recording(
-        *prepared.truth, excitation, study.bench.sensors, input.seed, named.id);
+                                           bench.cycles, bench.samples_per_cycle};
+    Result<data::BenchRecording> made =
+        data::make_recording(*prepared.truth, excitation, bench.sensors, input.seed, named.id);
     if (!made) return tl::unexpected(in_context(made.error(), "recording " + named.id));
     made->measured.split = named.split;
     measured.push_back(std::move(made->measured));

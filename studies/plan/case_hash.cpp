@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 ordered_json recordings_json(const StudyPlan& plan, const InputConfig& input, std::uint64_t seed) {
   const auto set = plan.datasets.find(input.id);
   if (set != plan.datasets.end()) return {{"dataset_sha256", set->second.sha256}};
-  return {{"truth", input.truth}, {"bench", to_json(plan.study->bench)}, {"seed", seed}};
+  return {{"truth", input.truth}, {"bench", to_json(plan.study->bench_of(input))}, {"seed", seed}};
 }
 
 /// Everything that an estimate depends on, but for the program: its data by their content.

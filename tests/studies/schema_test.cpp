@@ -32,7 +32,7 @@ TEST(StudySchema, NamesOnlyKeysThatTheReaderKnows) {
   };
   check("", top);
   check("[bench]\n", top.at("bench").at("properties"));
-  for (const char* list : {"grid", "input", "estimator"}) {
+  for (const char* list : {"grid", "input", "estimator", "contrast"}) {
     check("[[" + std::string(list) + "]]\n", top.at(list).at("items").at("properties"));
   }
 }

@@ -47,6 +47,7 @@ struct InputConfig {
   std::string holdout;            ///< id of the grid that is evaluated and never trained on
   /// Of a data set: exactly these recordings are held out, whatever it marks itself.
   std::optional<std::vector<std::string>> held_out{};
+  std::optional<BenchConfig> bench{};  ///< of a truth: instead of the study's
 };
 
 /// What an estimator of a study trains on, of a data set.
@@ -65,6 +66,14 @@ struct EstimatorConfig {
   std::optional<estimators::GivenModel> model{};  ///< for methods that take one
 };
 
+/// One step of an ablation: two estimators that differ in one respect.
+struct ContrastConfig {
+  std::string id;
+  std::string title;  ///< what the second has that the first has not
+  std::string from;   ///< ids of estimators
+  std::string to;
+};
+
 /// A study as read and understood. SI units.
 struct StudyConfig {
   std::filesystem::path file;
@@ -77,9 +86,14 @@ struct StudyConfig {
   std::vector<Grid> grids;
   std::vector<InputConfig> inputs;
   std::vector<EstimatorConfig> estimators;
+  std::vector<ContrastConfig> contrasts;
 
   const Grid* find_grid(std::string_view id) const;
   const InputConfig* find_input(std::string_view id) const;
+  /// How the virtual bench records an input.
+  const BenchConfig& bench_of(const InputConfig& input) const {
+    return input.bench ? *input.bench : bench;
+  }
 };
 
 /// A study as far as it could be read: everything wrong at once.
