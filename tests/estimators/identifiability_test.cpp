@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "claims/claims.hpp"
 #include "gears.hpp"
 #include "torsion/free_terms.hpp"
 #include "torsion/trajectory_fit.hpp"
@@ -191,6 +192,27 @@ TEST(IdentifiabilityOfH, IsThatOfTheDesign) {
     EXPECT_LT(found.decision.log_h_std, design.most_sd) << design.name;
     EXPECT_LT(found.cosine, design.most_cosine) << design.name;
   }
+}
+
+// The table of docs/fits.md, in its order; the numbers of the first column are the design's own.
+TEST(IdentifiabilityOfH, IsWhatThePagePrints) {
+  const auto gear = smooth_gear();
+  const std::vector<std::pair<std::vector<double>, std::vector<TorsionRecord>>> designs = {
+      {{1}, grid(gear, {1.0}, {1.0})},
+      {{3}, grid(gear, {1.0, 0.7, 0.4}, {1.0})},
+      {{3}, grid(gear, {1.0}, {0.5, 1.0, 2.0})},
+      {{3, 3}, grid(gear, {1.0, 0.7, 0.4}, {0.5, 1.0, 2.0})},
+      {{}, {multisine(gear, kSamples, 1)}},
+      {{1}, torques(gear, {1.0})},
+      {{3}, torques(gear, {1.0, 0.7, 0.4})}};
+  std::vector<claims::Number> numbers;
+  for (const auto& [words, records] : designs) {
+    for (const double word : words) numbers.push_back({"the design", word});
+    const auto found = told_by(records);
+    numbers.push_back({"cosine", found.cosine});
+    numbers.push_back({"sd of ln h", found.decision.log_h_std});
+  }
+  claims::expect("docs/fits.md", "h-by-design", numbers);
 }
 
 }  // namespace
