@@ -65,7 +65,7 @@ Figure error_overview_figure(const StudyView& view) {
   Figure figure;
   figure.id = "error-overview";
   figure.kind = "scatter";
-  figure.title = "Errors of the functions, and of the effort on loops nobody was trained on";
+  figure.title = "Errors of the functions, and of the torque on held-out loops";
   figure.caption =
       "One line for each input, further right is worse, by decades. Look for symbols of one colour "
       "that stay left whatever the input hides.";

@@ -36,7 +36,7 @@ Figure estimators_figure(const StudyView& view) {
   Figure figure;
   figure.id = "estimators";
   figure.kind = "scatter";
-  figure.title = "Every estimator, on what it was given and on what nobody was";
+  figure.title = "Every estimator, on training and on held-out recordings";
   figure.caption =
       "Error in percent of peak, by decades. A fit that has found the physics has its diamonds and "
       "triangles near its circle; one that has found a curve through its loop has not.";

@@ -77,7 +77,7 @@ Role role_of(const EstimatorView& estimator) { return {"estimator", estimator.ra
 Figure own_loop_figure(const StudyView& view) {
   Figure figure;
   figure.id = "own-loop";
-  figure.title = "The loop that every estimator was given";
+  figure.title = "The training loop that all estimators share";
   figure.caption =
       "Look for daylight between the lines. Where there is none, this loop cannot tell the "
       "estimators "

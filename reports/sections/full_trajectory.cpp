@@ -31,9 +31,8 @@ Table side_by_side(const StudyView& view) {
   Table table{
       "paper-against-full",
       "Errors in percent: of f and g⁻¹ over the training range, of their edge values; of the "
-      "effort, the worst recording that nobody was trained on, of its peak: smaller than the "
-      "operating point's loop at its frequency, slower at its amplitude, and larger or "
-      "faster than it.",
+      "torque, the worst held-out recording, of its peak: smaller than the operating point's loop "
+      "at its frequency, slower at its amplitude, and larger or faster than it.",
       {{"input", "", 3}},
       {}};
   const auto each = [&](const std::string& quantity) {
@@ -114,9 +113,9 @@ std::string verdict_of(const StudyView& view) {
   if (!std::isfinite(mine.percent)) return full->id + " has no held-out loop to be judged on.";
   std::string text = mine.percent < 2.0 ? "Yes: " : mine.percent < 5.0 ? "Roughly: " : "No: ";
   text += inside ? "on smaller and slower loops than the operating point's, "
-                 : "on recordings it was not trained on, ";
-  text += full->id + " is off by at most " + digits(mine.percent, 2) + " % of peak (" + mine.where +
-          ")";
+                 : "on held-out recordings, ";
+  text += full->id + " has a torque error of at most " + digits(mine.percent, 2) + " % of peak (" +
+          mine.where + ")";
   const EstimatorView* paper = view.paper_fit();
   const Worst theirs = paper != nullptr ? worst_of(view, *paper, inside) : Worst{};
   if (std::isfinite(theirs.percent)) {

@@ -94,9 +94,9 @@ std::string verdict_of(const StudyView& view) {
   }
   if (!std::isfinite(highest.percent)) return {};
   const std::string answer = highest.percent < 2.0 ? "Yes: " : "No: ";
-  return answer + "on loops that nobody was trained on, the worst error of " + paper->id +
-         " is between " + digits(lowest, 2) + " % and " + digits(highest.percent, 2) +
-         " % of peak (" + highest_input + " at " + highest.where + ").";
+  return answer + "on held-out loops, the worst torque error of " + paper->id + " is between " +
+         digits(lowest, 2) + " % and " + digits(highest.percent, 2) + " % of peak (" +
+         highest_input + " at " + highest.where + ").";
 }
 
 std::optional<Section> draw(const StudyView& view) {

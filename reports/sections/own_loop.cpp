@@ -70,7 +70,7 @@ std::string verdict_of(const StudyView& view) {
   const std::string answer = worst.percent < 2.0   ? "Yes: "
                              : worst.percent < 5.0 ? "Roughly: "
                                                    : "Not everywhere: ";
-  return answer + "on the loop it was fitted to, " + paper->id + " is off by at most " +
+  return answer + "on the loop it was fitted to, " + paper->id + " has a torque error of at most " +
          digits(worst.percent, 2) + " % of peak, measurement noise included (" + worst.where + ").";
 }
 

@@ -19,6 +19,7 @@ struct EstimatorView {
 
   bool is_midpoint() const { return method.starts_with("midpoint"); }
   bool is_trajectory() const { return method.starts_with("trajectory"); }
+  bool is_static_regression() const { return method == "static_regression"; }
 };
 
 /// Amplitude and frequency of the loop that everybody was trained on.
@@ -46,7 +47,7 @@ class StudyView {
   const Artefacts& artefacts() const { return artefacts_; }
   const std::vector<EstimatorView>& estimators() const { return estimators_; }
 
-  /// The paper's method on the fewest loops; the trajectory method that ran on the most inputs and,
+  /// The paper's method on the fewest loops, the first of those; the trajectory method that ran on the most inputs and,
   /// among those, on the most loops. Null where absent.
   const EstimatorView* paper_fit() const;
   const EstimatorView* full_trajectory() const;
