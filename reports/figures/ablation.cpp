@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -7,21 +8,32 @@
 namespace flexspline::reports {
 namespace {
 
+/// Inputs on which some step can be judged, in the study's order.
+std::vector<const Input*> judged_inputs(const StudyView& view, const AblationPlan& plan) {
+  std::set<const Input*> judged;
+  for (const Contrast& contrast : plan.contrasts) {
+    for (const Gain& gain : gains_of(view, contrast.from, contrast.to)) judged.insert(gain.input);
+  }
+  return {judged.begin(), judged.end()};
+}
+
 Panel step_panel(const StudyView& view, const std::string& title, double Gain::*of,
                  const AblationPlan& plan) {
+  const auto inputs = judged_inputs(view, plan);
   Panel panel;
   panel.title = title;
   panel.x.label = "error before / error after";
   panel.x.log = true;
   panel.marks.push_back({1.0, "no change"});
-  for (const Input& input : view.artefacts().inputs) panel.y.categories.push_back(input.id);
+  for (const Input* input : inputs) panel.y.categories.push_back(input->id);
   int rank = 0;
   for (const Contrast& contrast : plan.contrasts) {
     Series series{contrast.title, "points", {"plain", rank++}, {}, {}, {}, {}};
     for (const Gain& gain : gains_of(view, contrast.from, contrast.to)) {
       if (!(gain.*of > 0.0) || !std::isfinite(gain.*of)) continue;
       series.x.push_back(rounded(gain.*of, 4));
-      series.y.push_back(static_cast<double>(gain.input - view.artefacts().inputs.data()));
+      series.y.push_back(
+          static_cast<double>(std::ranges::find(inputs, gain.input) - inputs.begin()));
     }
     if (!series.x.empty()) panel.series.push_back(std::move(series));
   }

@@ -141,17 +141,17 @@ std::string origin_of(const StudyView& view) {
   const Spread3 simulating = spread_of(gains_of(view, plain->id, full->id), &Gain::torque);
   if (!(model.median > 0.0) || !(simulating.median > 0.0)) return {};
   const bool by_model = model.median > simulating.median;
-  const auto factors = [](const Spread3& s) {
-    return "a factor of " + digits(s.least, 2) + " to " + digits(s.most, 2) + " (median " +
-           digits(s.median, 2) + ")";
+  const auto factor = [](const Spread3& s) {
+    return "a factor of " + digits(s.median, 2) + " (median; " + digits(s.least, 2) + " to " +
+           digits(s.most, 2) + ")";
   };
   return "Most of the gain is " +
          std::string(by_model ? "the model class and several loops" : "simulating") +
-         ": static regression (" + plain->id +
-         "), of the same class on the same loops but without "
-         "a differential equation, makes held-out torque errors within the training range smaller "
-         "by " +
-         factors(model) + "; simulating trajectories adds " + factors(simulating) + ".";
+         ": within the training range, static regression (" + plain->id +
+         "), of the same class on the same loops but without a differential equation, divides the "
+         "paper's errors by " +
+         factor(model) + "; simulating trajectories divides what remains by " + factor(simulating) +
+         ".";
 }
 
 std::optional<Section> draw(const StudyView& view) {

@@ -60,7 +60,7 @@ std::string only_prose(std::string_view text) {
 bool follows_a_letter(std::string_view text, std::size_t at) {
   if (at == 0) return false;
   const auto before = static_cast<unsigned char>(text[at - 1]);
-  return std::isalnum(before) != 0 || before == '_' || before == '^';
+  return std::isalnum(before) != 0 || before == '_';
 }
 
 }  // namespace

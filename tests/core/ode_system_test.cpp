@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "claims/claims.hpp"
 #include "ode_examples.hpp"
 
 namespace flexspline {
@@ -59,6 +60,8 @@ TEST_P(BothMethods, ErrFromAnOscillationInProportionToTheTolerance) {
   EXPECT_THAT(slope(tolerances, errors), testing::AllOf(testing::Gt(0.75), testing::Lt(1.05)));
   EXPECT_NEAR(slope(tolerances, energies), slope(tolerances, errors), 0.1);
   EXPECT_LT(slope(steps, errors), -4.0) << "steps of high order";
+  claims::expect("docs/simulation.md", GetParam() == Stepping::bdf ? "order-bdf" : "order-adams",
+                 {{"error over steps", -slope(steps, errors)}});
 }
 
 TEST(IntegrateSystem, GoesThroughTheStiffLockedRotorInAThousandSteps) {
@@ -71,6 +74,8 @@ TEST(IntegrateSystem, GoesThroughTheStiffLockedRotorInAThousandSteps) {
   const auto made = integrate_system(system, viscous, times, start, how);
   ASSERT_TRUE(made) << made.error().message();
   EXPECT_LE(made->steps, 1000);
+  claims::expect("docs/simulation.md", "stiff-steps",
+                 {{"steps", static_cast<double>(made->steps)}});
   std::printf("stiff locked rotor: %ld steps for 200 s\n", static_cast<long>(made->steps));
   for (std::size_t i = 0; i < times.size(); ++i) {
     EXPECT_NEAR(made->state[2 * i], LockedRotor::position(times[i]),

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "claims/claims.hpp"
 #include "ode_examples.hpp"
 
 namespace flexspline {
@@ -118,6 +119,8 @@ TEST(StickSlip, ErrsInProportionToItsTolerance) {
   }
   EXPECT_LT(errors[1], 0.05 * errors[0]);
   EXPECT_LT(errors[2], 0.05 * errors[1]);
+  claims::expect("docs/simulation.md", "slip-events",
+                 {{"at 1e-8", errors[0]}, {"at 1e-10", errors[1]}, {"at 1e-12", errors[2]}});
 }
 
 TEST(StickSlip, WithStribeckApproachesTheSuddenFall) {

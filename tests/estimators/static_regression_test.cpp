@@ -64,11 +64,13 @@ TEST(StaticRegression, FindsAnHAndADelayOfItsClass) {
 // Cubic splines: the error of a smooth law falls with the fourth power of the interval.
 TEST(StaticRegression, ConvergesWithTheFourthOrderInItsIntervals) {
   Gear gear = cubic_gear();
-  gear.f = [](double phi) { return 10.0 * std::sinh(3.0 * phi / kAmplitude) / std::sinh(3.0); };
+  gear.f = [](double phi) { return 10.0 * std::sinh(2.0 * phi / kAmplitude) / std::sinh(2.0); };
   std::vector<double> errors;
-  for (double count : {2.0, 4.0, 8.0}) {
+  for (double count : {4.0, 8.0, 16.0}) {
+    Options options = intervals(count);
+    options.words = {{"h", "unity"}, {"inertia", "off"}, {"delay", "off"}};
     const auto estimate =
-        fitted("static_regression", four_loops(gear, {.per_cycle = 2000}), intervals(count));
+        fitted("static_regression", four_loops(gear, {.per_cycle = 250}), options);
     ASSERT_TRUE(estimate) << estimate.error().message();
     errors.push_back(rms_error(estimate->model.f, gear.f, kAmplitude));
   }
