@@ -24,7 +24,8 @@ Identifiability identifiability_of(const SlipRegression& linear) {
           .verdict = told ? "identifiable" : "weak",
           .says = told ? "f and the slip elements can be told apart on these recordings"
                        : "the elastic part of the slip elements and f imitate each other on these "
-                         "recordings; their sum is what the loop shows"};
+                         "recordings; their sum is what the loop shows. Missing: loops of another "
+                         "amplitude and frequency"};
 }
 
 std::vector<FunctionBand> bands_of(const ModelSpec& model, const Eigen::MatrixXd& covariance,

@@ -78,18 +78,22 @@ std::string motion_of(const PreparedRecord& widest, double share) {
                               : fmt::format("{:.3g} deg", motion * kDegrees);
 }
 
-// A second amplitude or frequency tells h, a second frequency inertia and delay.
-std::string missing_recording(const std::vector<PreparedRecord>& records) {
+// A second amplitude or frequency tells h; a second frequency alone inertia and delay.
+std::string missing_recording(const std::vector<PreparedRecord>& records, bool amplitude_too) {
   const auto& widest = *std::ranges::max_element(records, {}, half_range);
   if (!widest.smooth.steady) {
-    return fmt::format("a loop of half the amplitude ({}), or the same at half the speed",
-                       motion_of(widest, 0.5));
+    return fmt::format("the same motion at half the speed{}",
+                       amplitude_too
+                           ? ", or a loop of half the amplitude (" + motion_of(widest, 0.5) + ")"
+                           : std::string());
   }
   const double frequency = 1.0 / widest.smooth.steady->period;
-  return fmt::format(
-      "a loop of half the amplitude ({0} at {2:.3g} Hz) or at half the frequency "
-      "({1} at {3:.3g} Hz)",
-      motion_of(widest, 0.5), motion_of(widest, 1.0), frequency, 0.5 * frequency);
+  return fmt::format("{}a loop at half the frequency ({} at {:.3g} Hz)",
+                     amplitude_too
+                         ? fmt::format("a loop of half the amplitude ({} at {:.3g} Hz), or ",
+                                       motion_of(widest, 0.5), frequency)
+                         : std::string(),
+                     motion_of(widest, 1.0), 0.5 * frequency);
 }
 
 std::string says_of(double sd, double cosine, const std::vector<PreparedRecord>& recordings,
@@ -106,7 +110,7 @@ std::string says_of(double sd, double cosine, const std::vector<PreparedRecord>&
       "g^-1 can do, so its standard deviation at 0.9 of the range would be {:.2g}. h = 1 is "
       "assumed, not found. Missing: {}",
       records == 1 ? std::string("one recording") : fmt::format("these {} recordings", records),
-      cosine, sd, missing_recording(recordings));
+      cosine, sd, missing_recording(recordings, true));
 }
 
 }  // namespace
@@ -160,7 +164,7 @@ Result<TermDecision> decide_terms(const LinearStart& start,
     if (may && !can) {
       decision.notes.push_back(
           fmt::format("{} is not fitted: f and g^-1 imitate it on these recordings. Missing: {}",
-                      candidate.name, missing_recording(records)));
+                      candidate.name, missing_recording(records, false)));
     }
   }
   return decision;

@@ -86,13 +86,32 @@ TEST(StaticRegression, NamesTheRecordingThatHWouldNeed) {
   EXPECT_EQ(alone->identifiability.verdict, "not_identifiable");
   EXPECT_THAT(alone->identifiability.says,
               AllOf(HasSubstr("Missing: a loop of half the amplitude (0.1 deg at 0.005 Hz)"),
-                    HasSubstr("at half the frequency (0.2 deg at 0.0025 Hz)")));
+                    HasSubstr("a loop at half the frequency (0.2 deg at 0.0025 Hz)")));
   for (const Loop& named : {Loop{.amplitude = 0.5, .noise = 0.002, .seed = 2},
                             Loop{.frequency = 0.5, .noise = 0.002, .seed = 3}}) {
     const auto both = fitted("static_regression", {one, measured(gear, named)});
     ASSERT_TRUE(both) << both.error().message();
     EXPECT_EQ(both->identifiability.verdict, "identifiable") << both->identifiability.says;
   }
+}
+
+TEST(StaticRegression, NamesTheRecordingThatAnInertiaWouldNeed) {
+  Gear gear = smooth_gear();
+  const double omega = 2.0 * std::numbers::pi * kFrequency;
+  gear.inertia = 0.8 / (kAmplitude * omega * omega);
+  const auto one = measured(gear, {.noise = 0.002});
+  const auto alone = fitted("static_regression", {one});
+  ASSERT_TRUE(alone) << alone.error().message();
+  EXPECT_THAT(alone->notes,
+              testing::Contains(AllOf(HasSubstr("inertia is not fitted"),
+                                      HasSubstr("Missing: a loop at half the frequency (0.2 deg "
+                                                "at 0.0025 Hz)"))));
+  const auto both = fitted("static_regression",
+                           {one, measured(gear, {.frequency = 0.5, .noise = 0.002, .seed = 3})});
+  ASSERT_TRUE(both) << both.error().message();
+  const auto inertia = std::ranges::find(both->parameters, "inertia", &ParameterEstimate::name);
+  ASSERT_NE(inertia, both->parameters.end());
+  EXPECT_NEAR(inertia->value / gear.inertia, 1.0, 0.05);
 }
 
 TEST(StaticRegression, RefusesAMotionOneWay) {

@@ -95,7 +95,7 @@ TEST_F(FirstStudy, HasTheErrorsThatTheReadmePrints) {
 TEST_F(FirstStudy, GainsWhatTheReadmeSaysBySimulating) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
-  for (const char* truth : {"unity", "h_even", "harmonics", "sensor_lag"}) {
+  for (const std::string& truth : kTruths) {
     const ordered_json before = of(truth, "static");
     const ordered_json after = of(truth, "trajectory");
     const double gain = within(before, after) / within(after, before);
