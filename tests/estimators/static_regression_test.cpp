@@ -66,7 +66,7 @@ TEST(StaticRegression, ConvergesWithTheFourthOrderInItsIntervals) {
   Gear gear = cubic_gear();
   gear.f = [](double phi) { return 10.0 * std::sinh(2.0 * phi / kAmplitude) / std::sinh(2.0); };
   std::vector<double> errors;
-  for (double count : {4.0, 8.0, 16.0}) {
+  for (double count : {3.0, 6.0, 12.0}) {
     Options options = intervals(count);
     options.words = {{"h", "unity"}, {"inertia", "off"}, {"delay", "off"}};
     const auto estimate =

@@ -1,0 +1,74 @@
+// What docs/fits.md says of studies/ablation.toml, computed again.
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "claims/claims.hpp"
+#include "flexspline/data/artefact.hpp"
+#include "flexspline/studies/run.hpp"
+#include "source_dir.hpp"
+#include "study_file.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+/// Errors of g^-1 by input, estimator and replicate.
+class DampingErrors {
+ public:
+  DampingErrors(const std::filesystem::path& folder, const StudyPlan& plan) {
+    for (const CasePlan& one : plan.cases) {
+      const auto read =
+          data::read_artefact(folder / "cases" / (one.key + ".json"), "flexspline-case/1");
+      EXPECT_TRUE(read) << (read ? "" : read.error().message());
+      if (!read) continue;
+      errors_[one.input->id][one.estimator->id].push_back(
+          read->at("function_errors_percent").at("g_inverse"));
+    }
+  }
+
+  /// Least, largest and median over the inputs of the median ratio over the replicates.
+  std::vector<claims::Number> gains(const std::string& from, const std::string& to) const {
+    std::vector<double> all;
+    for (const auto& [input, by_estimator] : errors_) {
+      const auto& before = by_estimator.at(from);
+      const auto& after = by_estimator.at(to);
+      std::vector<double> ratios;
+      for (std::size_t r = 0; r < before.size(); ++r) ratios.push_back(before[r] / after[r]);
+      all.push_back(median(ratios));
+    }
+    const auto [least, most] = std::ranges::minmax(all);
+    return {{"least", least}, {"largest", most}, {"median", median(all)}};
+  }
+
+ private:
+  std::map<std::string, std::map<std::string, std::vector<double>>> errors_;
+};
+
+TEST(Ablation, GainsWhatThePageSays) {
+  const ScratchFolder folder;
+  const auto study = load_study(std::string(FLEXSPLINE_SOURCE_DIR) + "/studies/ablation.toml");
+  ASSERT_TRUE(study) << study.error().message();
+  const auto plan = plan_study(*study, "test");
+  ASSERT_TRUE(plan) << plan.error().message();
+  RunSettings settings;
+  settings.folder = folder.path();
+  settings.jobs = 2;
+  settings.build_id = "test";
+  const auto summary = run_study(*plan, settings);
+  ASSERT_TRUE(summary) << summary.error().message();
+  ASSERT_TRUE(summary->failed.empty());
+  const DampingErrors errors(folder.path(), *plan);
+  claims::expect("docs/fits.md", "ablation-knots", errors.gains("static_even", "static"));
+  claims::expect("docs/fits.md", "ablation-simulation", errors.gains("static", "trajectory"));
+}
+
+}  // namespace
+}  // namespace flexspline::studies
