@@ -51,6 +51,29 @@ ShownEffectScore parse_effect(const json& from) {
           number_in(from, "holdout_after_over_noise_median")};
 }
 
+void parse_groups(const json& from, std::map<std::string, ShownScores>& groups) {
+  for (const auto& item : from.items()) groups[item.key()] = parse_scores(item.value());
+}
+
+void parse_calibration(const json& artefact, TrialView& view) {
+  for (const json& one : member(artefact, "reliability")) {
+    view.reliability.push_back({number_in(one, "from"), number_in(one, "to"),
+                                number_in(one, "mean_probability"),
+                                parse_rate(member(one, "right"))});
+  }
+  for (const auto& item : member(artefact, "coverage").items()) {
+    view.coverage[item.key()] = parse_rate(item.value());
+  }
+  for (const json& one : member(artefact, "by_verdict")) {
+    view.by_verdict.push_back({text_in(one, "verdict"), count_in(one, "cases"),
+                               number_in(one, "holdout_over_noise_median")});
+  }
+  const json& splices = member(artefact, "splices");
+  view.splices = {parse_rate(member(splices, "found_small")),
+                  parse_rate(member(splices, "found_large")),
+                  parse_rate(member(splices, "same_verdict")), number_in(splices, "names_shared")};
+}
+
 ShownTrialCase parse_case_of_trial(const json& from) {
   ShownTrialCase one;
   one.key = text_in(from, "key");
@@ -87,9 +110,10 @@ TrialView parse_trial(const json& artefact) {
   view.design = member(artefact, "design").dump(2, ' ', false, json::error_handler_t::replace);
   view.scores = parse_scores(member(artefact, "scores"));
   view.scores_seen = parse_scores(member(artefact, "scores_seen"));
-  for (const auto& item : member(artefact, "by_rig").items()) {
-    view.by_rig[item.key()] = parse_scores(item.value());
-  }
+  parse_groups(member(artefact, "by_rig"), view.by_rig);
+  parse_groups(member(artefact, "by_generator"), view.by_generator);
+  parse_groups(member(artefact, "by_disturbance"), view.by_disturbance);
+  parse_calibration(artefact, view);
   for (const json& one : member(artefact, "by_size")) view.by_size.push_back(parse_bin(one));
   for (const json& one : member(artefact, "by_trace")) view.by_trace.push_back(parse_bin(one));
   for (const json& one : member(artefact, "by_effect")) {

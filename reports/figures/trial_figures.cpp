@@ -14,23 +14,35 @@ struct Rate {
   const char* title;
 };
 
-constexpr Rate kRates[] = {{"null_ok", "nothing hidden, called adequate"},
-                           {"single_top", "one effect, named first"},
-                           {"single_exact", "one effect, named exactly"},
-                           {"pair_all", "two effects, both named"},
-                           {"pair_one", "two effects, at least one named"},
-                           {"unknown_unnamed", "outside the catalogue, not named"},
-                           {"unknown_ok", "the same, and called unexplained"},
-                           {"contained_ok", "contained in the baseline, no false name"},
-                           {"coord_ok", "right coordinate among three"},
-                           {"false_name", "cases with a false name"}};
+constexpr Rate kRates[] = {
+    {"null_ok", "nothing hidden, called adequate"},
+    {"single_top", "one effect, named first"},
+    {"single_exact", "one effect, named exactly"},
+    {"pair_all", "two effects, both named"},
+    {"pair_one", "two effects, at least one named"},
+    {"unknown_unnamed", "outside the catalogue, not named"},
+    {"unknown_ok", "the same, and called unexplained"},
+    {"contained_ok", "contained in the baseline, no false name"},
+    {"incident_ok", "burst, step or glitch, its place told"},
+    {"incident_unnamed", "the same, given no name"},
+    {"coord_ok", "right coordinate among three"},
+    {"false_name", "cases with a false name"},
+    {"single_exact_or_alternative", "one effect, or an alternative, exactly"},
+    {"pair_all_or_alternative", "two effects, or alternatives, both"},
+    {"contained_ok_or_alternative", "contained, or an alternative, no false name"},
+    {"false_name_and_alternatives", "false names, alternatives counting too"}};
+
+/// What no catalogue has, and what happened inside one recording.
+bool is_unnamed(const std::string& label) {
+  return label.starts_with("unknown:") || label.starts_with("incident:");
+}
 
 /// Places of what is no effect: rows and columns that belong together stand at the same end.
 int rank_of(const std::string& label) {
   if (label == "nothing" || label == "adequate") return -2;
   if (label == "contained in the baseline") return -1;
   if (label == "two effects" || label == "one of the two") return 1;
-  if (label.starts_with("unknown:") || label == "no name") return 2;
+  if (is_unnamed(label) || label == "no name") return 2;
   return label == "failed" ? 3 : 0;
 }
 
@@ -44,7 +56,7 @@ std::vector<std::string> labels_of(const std::set<std::string>& names) {
 bool is_right(const ShownConfusion& one) {
   if (one.truth == "nothing") return one.named == "adequate";
   if (one.truth == "contained in the baseline" && one.named == "adequate") return true;
-  if (one.truth.starts_with("unknown:")) return one.named == "no name";
+  if (is_unnamed(one.truth)) return one.named == "no name";
   return one.truth == one.named;
 }
 
@@ -101,8 +113,8 @@ Figure rates_figure(const TrialView& view) {
   figure.kind = "scatter";
   figure.title = "How often it was right";
   figure.caption =
-      "Symbols are shares of cases, lines their 95 % intervals (Clopper and Pearson). The last one "
-      "is to be small, the others near 100 %. A wide line means few cases, not a bad diagnosis.";
+      "Symbols are shares of cases, lines their 95 % intervals (Wilson). False names are to be "
+      "few, the others near 100 %. A wide line means few cases, not a bad diagnosis.";
   figure.alt = "Rates of the trial with their 95 % intervals.";
   Panel panel;
   panel.x.label = "cases / %";
@@ -126,6 +138,36 @@ Figure rates_figure(const TrialView& view) {
   if (rates.x.empty()) return figure;
   panel.series = {std::move(rates), std::move(intervals)};
   if (!seen.x.empty()) panel.series.push_back(std::move(seen));
+  figure.frames.push_back({{}, {std::move(panel)}});
+  return figure;
+}
+
+Figure reliability_figure(const TrialView& view) {
+  Figure figure;
+  figure.id = "reliability";
+  figure.kind = "scatter";
+  figure.title = "What a printed probability is worth";
+  figure.caption =
+      "Of the names given with about this probability, the share that was right, with its 95 % "
+      "interval. On the line, of the names given at p, p are right; below it, names are given with "
+      "more confidence than they deserve.";
+  figure.alt = "Share of right names over their printed probability.";
+  Panel panel;
+  panel.x = {"printed probability / %", false, {}, std::pair{0.0, 101.0}};
+  panel.y = {"right / %", false, {}, std::pair{0.0, 101.0}};
+  Series ideal{"as printed", "line", {"plain", 1}, {0.0, 100.0}, {0.0, 100.0}, {}, {}};
+  Series shares{"names", "points", {"plain", 0}, {}, {}, {}, {}};
+  Series intervals{"95 % interval", "line", {"plain", 0}, {}, {}, {}, {}};
+  for (const ShownReliabilityBin& bin : view.reliability) {
+    const double p = 100.0 * bin.mean_probability;
+    shares.x.push_back(p);
+    shares.y.push_back(100.0 * bin.right.rate);
+    intervals.x.insert(intervals.x.end(), {p, p, kAbsent});
+    intervals.y.insert(intervals.y.end(),
+                       {100.0 * bin.right.lower, 100.0 * bin.right.upper, kAbsent});
+  }
+  if (shares.x.empty()) return figure;
+  panel.series = {std::move(shares), std::move(intervals), std::move(ideal)};
   figure.frames.push_back({{}, {std::move(panel)}});
   return figure;
 }

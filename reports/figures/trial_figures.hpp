@@ -15,6 +15,9 @@ std::vector<std::pair<std::string, ShownRate>> told_rates(const ShownScores& sco
 /// The rates with their intervals.
 Figure rates_figure(const TrialView& view);
 
+/// Share of right names over their printed probability.
+Figure reliability_figure(const TrialView& view);
+
 /// What was hidden against what was named first, in counts.
 Figure confusion_figure(const TrialView& view);
 

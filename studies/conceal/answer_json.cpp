@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/estimate.hpp"
 #include "flexspline/studies/conceal.hpp"
 
 namespace flexspline::studies {
@@ -10,14 +11,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// "stiffness_Nm_rad".
-std::string key_of(const data::HiddenParameter& parameter) {
-  std::string key = parameter.name;
-  if (!parameter.unit.empty()) key += "_" + parameter.unit;
-  for (char& letter : key) {
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
-  }
-  return key;
+/// What is not known of others' recordings stands there as null.
+double number_or(const ordered_json& json, const char* key, double other) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<double>() : other;
 }
 
 std::optional<data::HiddenEquation> find_equation(const std::string& name) {
@@ -69,6 +66,11 @@ data::HiddenFinding finding(const ordered_json& answer, std::size_t index) {
   if (answer.contains("equation")) {
     found.equation = find_equation(answer["equation"].at(index)).value_or(found.equation);
   }
+  if (answer.contains("info") && answer["info"].contains(found.id)) {
+    for (const auto& [key, value] : answer["info"][found.id].items()) {
+      if (value.is_number()) found.parameters.push_back({key, value.get<double>(), {}});
+    }
+  }
   if (answer.contains("names")) found.names = answer["names"].at(index);
   if (answer.contains("place")) found.place = place_in(answer["place"].at(index));
   return found;
@@ -76,8 +78,20 @@ data::HiddenFinding finding(const ordered_json& answer, std::size_t index) {
 
 }  // namespace
 
+std::string key_of(const data::HiddenParameter& parameter) {
+  std::string key = parameter.name;
+  if (!parameter.unit.empty()) key += "_" + parameter.unit;
+  for (char& letter : key) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+  }
+  return key;
+}
+
 ordered_json to_json(const ConcealedAnswer& answer) {
-  ordered_json json = {{"rig", name_of(answer.rig)},
+  ordered_json json = {{"generator", answer.generator},
+                       {"source", answer.source},
+                       {"change", answer.change},
+                       {"rig", name_of(answer.rig)},
                        {"effects", ordered_json::array()},
                        {"size", ordered_json::array()},
                        {"coordinate", ordered_json::array()},
@@ -111,6 +125,9 @@ ordered_json to_json(const ConcealedAnswer& answer) {
 Result<ConcealedAnswer> answer_from_json(const ordered_json& json) {
   try {
     ConcealedAnswer answer;
+    answer.generator = json.value("generator", answer.generator);
+    answer.source = json.value("source", answer.source);
+    answer.change = json.value("change", answer.change);
     const std::string rig = json.at("rig").get<std::string>();
     const auto found = data::find_bench_kind(rig);
     if (!found) return failure(ErrorCode::bad_data, fmt::format("unknown rig '{}'", rig));
@@ -120,9 +137,9 @@ Result<ConcealedAnswer> answer_from_json(const ordered_json& json) {
     }
     answer.disturbances = disturbances_in(json);
     answer.twins = json.at("twins").get<std::vector<std::string>>();
-    answer.noise_std = json.at("noise_std_nm").get<double>();
-    answer.peak_torque = json.at("tau_max").get<double>();
-    answer.best_rmse = json.value("best_rmse_nm", answer.noise_std);
+    answer.noise_std = number_or(json, "noise_std_nm", kNotComputed);
+    answer.peak_torque = number_or(json, "tau_max", kNotComputed);
+    answer.best_rmse = number_or(json, "best_rmse_nm", answer.noise_std);
     answer.seed = json.value("seed", answer.seed);
     answer.dataset_sha256 = json.value("dataset_sha256", "");
     return answer;

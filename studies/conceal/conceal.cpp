@@ -1,81 +1,18 @@
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
-#include "conceal/draw_effects.hpp"
+#include <fmt/format.h>
+
+#include "conceal/generator.hpp"
 #include "conceal/lot.hpp"
-#include "conceal/nuisances.hpp"
-#include "flexspline/studies/conceal.hpp"
 
 namespace flexspline::studies {
-namespace {
 
-/// The torque that a rig's fits explain.
-Quantity effort_of(const Recording& recording) {
-  for (const Quantity quantity :
-       {Quantity::transmitted_torque, Quantity::torque, Quantity::motor_torque}) {
-    if (recording.find(quantity) != nullptr) return quantity;
-  }
-  expects(false, "a recording of the bench has a torque");
-  return Quantity::torque;
+const GeneratorRow* find_generator(std::string_view id) {
+  const auto rows = generators();
+  const auto found = std::ranges::find(rows, id, &GeneratorRow::id);
+  return found == rows.end() ? nullptr : &*found;
 }
 
-/// rms over the whole set of what the instrument added to the effort.
-double best_rmse(const data::HiddenDataset& made) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < made.ideal.recordings.size(); ++k) {
-    const Quantity effort = effort_of(made.ideal.recordings[k]);
-    const std::vector<double>& ideal = *made.ideal.recordings[k].find(effort);
-    const std::vector<double>& measured = *made.measured.recordings[k].find(effort);
-    for (std::size_t i = 0; i < ideal.size(); ++i) sum += std::pow(measured[i] - ideal[i], 2);
-    count += ideal.size();
-  }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
-}
-
-/// A bench with what was done to it.
-struct DisturbedBench {
-  data::HiddenBench bench;
-  std::vector<AppliedDisturbance> applied;
-};
-
-std::vector<std::string> disturbances_of(const ConcealPlan& plan) {
-  return plan.draw ? draw_disturbances(*plan.draw, plan.rig, plan.seed) : plan.disturbances;
-}
-
-DisturbedBench bench_of(const ConcealPlan& plan) {
-  DisturbedBench made;
-  data::HiddenBench& bench = made.bench;
-  bench = data::draw_hidden_bench(plan.rig, plan.seed);
-  if (!plan.design.empty()) bench.design = plan.design;
-  for (const std::string& id : disturbances_of(plan)) {
-    const data::DisturbanceRow& row = **data::find_disturbance(id);
-    made.applied.push_back({id, row.apply(bench, plan.seed)});
-  }
-  for (const NuisanceSetting& setting : nuisance_settings()) {
-    const auto given = plan.nuisances.find(std::string(setting.name));
-    if (given != plan.nuisances.end()) bench.nuisances.*setting.member = given->second;
-  }
-  return made;
-}
-
-ConcealedAnswer answer_of(const ConcealPlan& plan, data::HiddenDataset& made) {
-  ConcealedAnswer answer;
-  answer.rig = plan.rig;
-  answer.seed = plan.seed;
-  answer.effects = std::move(made.answer.effects);
-  for (const data::HiddenFinding& effect : answer.effects) {
-    std::ranges::move(twins_of(effect.id, plan.rig), std::back_inserter(answer.twins));
-  }
-  const bool motor_only = plan.rig.rig == Rig::servo;
-  answer.noise_std = motor_only ? made.answer.motor_noise_std : made.answer.noise_std;
-  answer.peak_torque = motor_only ? made.answer.peak_motor_torque : made.answer.peak_torque;
-  answer.best_rmse = best_rmse(made);
-  return answer;
-}
-
-/// The bench's own name holds the seed, from which it could be made again without the effect.
 RecordingSet disguised(RecordingSet set, std::uint64_t seed) {
   set.name = "case";
   std::ranges::sort(set.recordings, {}, &Recording::id);
@@ -84,30 +21,18 @@ RecordingSet disguised(RecordingSet set, std::uint64_t seed) {
   return set;
 }
 
-/// An effect may not come to the drawn size on the drawn bench; then it is drawn again.
-Result<data::HiddenDataset> run_drawn(const ConcealPlan& plan, const data::HiddenBench& bench) {
-  constexpr std::uint64_t kAttempts = 8;
-  for (std::uint64_t attempt = 0;; ++attempt) {
-    const std::uint64_t seed = lot_bits(plan.seed, "effects", attempt);
-    auto made = data::run_hidden_bench(bench, draw_effects(*plan.draw, plan.rig, seed));
-    const bool unreachable = !made && made.error().code == ErrorCode::usage;
-    if (!unreachable || attempt + 1 == kAttempts) return made;
-  }
-}
-
-}  // namespace
-
 Result<ConcealedCase> conceal(const ConcealPlan& plan) {
-  DisturbedBench disturbed = bench_of(plan);
-  auto made = plan.draw ? run_drawn(plan, disturbed.bench)
-                        : data::run_hidden_bench(disturbed.bench, plan.effects);
+  const GeneratorRow* generator = find_generator(plan.generator);
+  if (generator == nullptr) {
+    return failure(ErrorCode::usage, fmt::format("there is no generator '{}'", plan.generator),
+                   "flexspline schema bench lists them");
+  }
+  auto made = generator->make(plan);
   if (!made) return tl::unexpected(made.error());
-  ConcealedCase concealed;
-  concealed.answer = answer_of(plan, *made);
-  concealed.answer.disturbances = std::move(disturbed.applied);
-  concealed.recordings = disguised(std::move(made->measured), plan.seed);
-  concealed.answer.dataset_sha256 = concealed.recordings.sha256;
-  return concealed;
+  made->answer.generator = plan.generator;
+  made->recordings = disguised(std::move(made->recordings), plan.seed);
+  made->answer.dataset_sha256 = made->recordings.sha256;
+  return made;
 }
 
 }  // namespace flexspline::studies

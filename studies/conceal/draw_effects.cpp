@@ -52,14 +52,18 @@ std::vector<std::string> ids_of(ConcealKind kind, data::BenchKind rig) {
   return concealable(rig, data::HiddenClass::unknown);
 }
 
-std::vector<std::string> drawable(const ConcealDraw& draw, data::BenchKind rig) {
-  std::vector<std::string> ids = concealable(rig, data::HiddenClass::named);
+std::vector<std::string> drawable(std::vector<std::string> ids, const ConcealDraw& draw,
+                                  data::BenchKind rig) {
   const std::vector<std::string> contained = contained_on(rig);
   std::erase_if(ids, [&](const std::string& id) {
     if (draw.effects.empty()) return std::ranges::find(contained, id) != contained.end();
     return std::ranges::find(draw.effects, id) == draw.effects.end();
   });
   return ids;
+}
+
+std::vector<std::string> drawable(const ConcealDraw& draw, data::BenchKind rig) {
+  return drawable(concealable(rig, data::HiddenClass::named), draw, rig);
 }
 
 std::vector<std::string> partners(const std::vector<std::string>& ids, std::string_view first,

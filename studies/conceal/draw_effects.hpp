@@ -19,8 +19,13 @@ double whole(const ConcealDraw& draw);
 /// What one is drawn from where not one or two catalogued effects are hidden.
 std::vector<std::string> ids_of(ConcealKind kind, data::BenchKind rig);
 
-/// What one or two may be drawn from on a rig: catalogued, and not contained in the baseline unless
-/// the draw lists it.
+/// What is left of ids to draw one or two from: those that the draw lists, or else those that the
+/// rig's baseline does not contain.
+std::vector<std::string> drawable(std::vector<std::string> ids, const ConcealDraw& draw,
+                                  data::BenchKind rig);
+
+/// What one or two may be drawn from on a rig of the bench: catalogued, and not contained in the
+/// baseline unless the draw lists it.
 std::vector<std::string> drawable(const ConcealDraw& draw, data::BenchKind rig);
 
 /// Those that can stand beside the first of a pair: neither itself nor a structural twin.

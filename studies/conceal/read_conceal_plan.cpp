@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "conceal/conceal_reader.hpp"
+#include "conceal/generator.hpp"
 #include "config/toml_root.hpp"
 #include "flexspline/core/nearest_name.hpp"
 
@@ -108,9 +109,26 @@ data::HiddenExcitation read_excitation(TomlSection& section) {
   return excitation;
 }
 
-ConcealPlan read_plan(TomlSection& root) {
+void read_generator(TomlSection& root, ConcealPlan& plan, const std::filesystem::path& folder) {
+  plan.generator = root.text("generator").value_or(plan.generator);
+  std::vector<std::string_view> known;
+  for (const GeneratorRow& row : generators()) known.push_back(row.id);
+  if (find_generator(plan.generator) == nullptr) {
+    root.refuse("generator", fmt::format("unknown generator '{}'", plan.generator),
+                suggestion(plan.generator, known));
+  }
+  if (const auto source = root.text("source")) plan.source = folder / *source;
+  if (plan.generator != "bench" && plan.source.empty()) {
+    root.refuse("generator", fmt::format("generator '{}' has no source", plan.generator),
+                "write source = \"…\": MuJoCo's script, or the recordings to splice into");
+  }
+  plan.change = root.text("change").value_or(plan.change);
+}
+
+ConcealPlan read_plan(TomlSection& root, const std::filesystem::path& folder) {
   ConcealPlan plan;
   check_schema(root, kSchema);
+  read_generator(root, plan, folder);
   plan.rig = read_rig(root, "rig").value_or(Rig::locked);
   plan.seed = read_seed(root);
   read_effects(root, plan);
@@ -132,7 +150,8 @@ ConcealPlan read_plan(TomlSection& root) {
 
 Result<ConcealReading> read_conceal_plan(const std::filesystem::path& file) {
   ConcealPlan plan;
-  auto findings = read_toml_root(file, [&](TomlSection& root) { plan = read_plan(root); });
+  auto findings =
+      read_toml_root(file, [&](TomlSection& root) { plan = read_plan(root, file.parent_path()); });
   if (!findings) return tl::unexpected(findings.error());
   ConcealReading reading{std::nullopt, *std::move(findings)};
   plan.file = file;

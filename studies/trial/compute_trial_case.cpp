@@ -31,13 +31,16 @@ Result<ConcealedCase> conceal_case(ConcealPlan& plan) {
   for (std::uint64_t attempt = 1;; ++attempt) {
     auto concealed = conceal(plan);
     const bool unreachable = !concealed && concealed.error().code == ErrorCode::usage;
-    if (!unreachable || attempt == kBenches) return concealed;
+    const bool drawn = plan.generator == "bench";  // others draw no other drive for an effect
+    if (!unreachable || !drawn || attempt == kBenches) return concealed;
     plan.seed = lot_bits(seed, "other bench", attempt);
   }
 }
 
 /// Not known where the baseline cannot be fitted.
 std::vector<EffectTrace> known_traces(const ConcealPlan& plan, const RecordingSet& recordings) {
+  // Only the bench can be run again without the effect, and with the same noise.
+  if (plan.generator != "bench") return {};
   auto traces = traces_of(plan, recordings);
   if (traces) return *std::move(traces);
   std::vector<EffectTrace> unknown;
@@ -115,7 +118,10 @@ std::string dependencies_of(const TrialConfig& trial, const TrialCase& one,
                        {"seed", one.plan.seed},
                        {"time_limit", trial.time_limit},
                        {"nuisances", one.plan.nuisances},
-                       {"disturbances", one.plan.disturbances}};
+                       {"disturbances", one.plan.disturbances},
+                       {"generator", one.plan.generator},
+                       {"source", one.plan.source.string()},
+                       {"change", one.plan.change}};
   for (const data::HiddenEffect& effect : one.plan.effects) {
     what["effects"].push_back({effect.id, effect.size_fraction});
   }

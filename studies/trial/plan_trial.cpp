@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "conceal/draw_effects.hpp"
+#include "conceal/generator.hpp"
 #include "conceal/lot.hpp"
+#include "flexspline/data/splice.hpp"
 #include "flexspline/studies/trial.hpp"
 
 namespace flexspline::studies {
@@ -35,31 +39,45 @@ class Turns {
   std::size_t taken_ = 0;
 };
 
+/// The cases of one generator, in order.
+class GeneratorCases {
+ public:
+  GeneratorCases() = default;
+  virtual ~GeneratorCases() = default;
+  GeneratorCases(const GeneratorCases&) = delete;
+  GeneratorCases& operator=(const GeneratorCases&) = delete;
+  virtual void next(ConcealPlan& plan) = 0;
+};
+
 /// The cases of one rig, in order.
 class RigCases {
  public:
-  RigCases(const TrialConfig& trial, data::BenchKind rig)
+  RigCases(const TrialConfig& trial, const GeneratorRow& generator, data::BenchKind rig)
       : draw_(trial.draw),
         rig_(rig),
         seed_(trial.seed),
-        name_(name_of(rig)),
-        ids_(drawable(trial.draw, rig)),
+        name_((generator.id == "bench" ? "" : std::string(generator.id) + "-") +
+              std::string(name_of(rig))),
+        ids_(drawable(listed(trial, generator, data::HiddenClass::named), draw_, rig)),
         singles_(ids_, seed_, "single-" + name_),
         pairs_(ids_, seed_, "pair-" + name_),
-        disturbed_(disturbances_on(rig), seed_, "disturbed-" + name_) {
-    for (const auto& [kind, what] : {std::pair{ConcealKind::unknown, "unknown-"},
-                                     {ConcealKind::contained, "contained-"},
-                                     {ConcealKind::variant, "variant-"},
-                                     {ConcealKind::incident, "incident-"}}) {
-      others_.emplace(kind, Turns(ids_of(kind, rig), seed_, what + name_));
-    }
+        disturbed_(generator.id == "bench" ? disturbances_on(rig) : std::vector<std::string>{},
+                   seed_, "disturbed-" + name_) {
+    add(ConcealKind::unknown, &ConcealDraw::unknown, "unknown-",
+        listed(trial, generator, data::HiddenClass::unknown));
+    add(ConcealKind::variant, &ConcealDraw::variant, "variant-",
+        listed(trial, generator, data::HiddenClass::variant));
+    add(ConcealKind::incident, &ConcealDraw::incident, "incident-",
+        listed(trial, generator, data::HiddenClass::incident));
+    add(ConcealKind::contained, &ConcealDraw::contained, "contained-",
+        generator.id == "bench" ? contained_on(rig) : std::vector<std::string>{});
+    if (ids_.empty()) draw_.one = draw_.two = 0.0;
   }
 
   std::vector<data::HiddenEffect> next(std::uint64_t bench_seed) {
     const ConcealKind kind = next_kind();
     if (kind == ConcealKind::none) return {};
     if (const auto other = others_.find(kind); other != others_.end()) {
-      if (other->second.empty()) return {};
       return {{other->second.next(), draw_size(draw_, bench_seed, 0)}};
     }
     if (kind == ConcealKind::one) return {{singles_.next(), draw_size(draw_, bench_seed, 0)}};
@@ -80,6 +98,24 @@ class RigCases {
   }
 
  private:
+  std::vector<std::string> listed(const TrialConfig& trial, const GeneratorRow& generator,
+                                  data::HiddenClass of) const {
+    ConcealPlan plan;
+    plan.rig = rig_;
+    plan.source = trial.mujoco_script;
+    return generator.effects(plan, of);
+  }
+
+  /// What a rig has nothing of gives its share to the others.
+  void add(ConcealKind kind, double ConcealDraw::*share, const char* what,
+           std::vector<std::string> ids) {
+    if (ids.empty()) {
+      draw_.*share = 0.0;
+    } else {
+      others_.emplace(kind, Turns(std::move(ids), seed_, what + name_));
+    }
+  }
+
   ConcealKind next_kind() {
     return kind_at(draw_, even_share("kind-" + name_, std::numbers::phi, taken_++));
   }
@@ -103,21 +139,88 @@ class RigCases {
   std::uint64_t counted_ = 0;
 };
 
+/// Drives drawn from a seed: the rigs that the generator has take turns.
+class DrawnCases : public GeneratorCases {
+ public:
+  DrawnCases(const TrialConfig& trial, const GeneratorRow& generator) : trial_(trial) {
+    for (const data::BenchKind rig : trial.rigs) {
+      if (std::ranges::find(generator.rigs, rig) == generator.rigs.end()) continue;
+      rigs_.push_back(rig);
+      cases_.emplace_back(trial, generator, rig);
+    }
+    expects(!rigs_.empty(), "the generator has one of the trial's rigs");
+  }
+
+  void next(ConcealPlan& plan) override {
+    const std::size_t turn = taken_++ % rigs_.size();
+    plan.rig = rigs_[turn];
+    plan.source = plan.generator == "bench" ? std::filesystem::path{} : trial_.mujoco_script;
+    plan.effects = cases_[turn].next(plan.seed);
+    plan.disturbances = cases_[turn].next_disturbances();
+    plan.nuisances = trial_.nuisances;
+  }
+
+ private:
+  const TrialConfig& trial_;
+  std::vector<data::BenchKind> rigs_;
+  std::vector<RigCases> cases_;
+  std::size_t taken_ = 0;
+};
+
+/// Recordings by others: each in turn as it is, changed in each way, then with each effect small
+/// and large.
+class SplicedCases : public GeneratorCases {
+ public:
+  SplicedCases(const TrialConfig& trial, const GeneratorRow& generator) : trial_(trial) {
+    for (const std::filesystem::path& source : trial.spliced_sets) {
+      ConcealPlan plan;
+      plan.source = source;
+      effects_.emplace_back(generator.effects(plan, data::HiddenClass::named), trial.seed,
+                            "splice-" + source.filename().string());
+    }
+  }
+
+  void next(ConcealPlan& plan) override {
+    const std::size_t turn = taken_ % trial_.spliced_sets.size();
+    const std::size_t round = taken_++ / trial_.spliced_sets.size();
+    plan.source = trial_.spliced_sets[turn];
+    const auto changes = data::splice_changes();
+    if (round < changes.size()) {
+      plan.change = changes[round];
+    } else if (!effects_[turn].empty()) {
+      const bool small = (round - changes.size()) % 2 == 0;
+      if (small) last_[turn] = effects_[turn].next();
+      plan.effects = {{last_[turn], small ? trial_.draw.smallest : trial_.draw.largest}};
+    }
+  }
+
+ private:
+  const TrialConfig& trial_;
+  std::vector<Turns> effects_;
+  std::map<std::size_t, std::string> last_;
+  std::size_t taken_ = 0;
+};
+
+std::unique_ptr<GeneratorCases> cases_of(const TrialConfig& trial, const std::string& id) {
+  const GeneratorRow* row = find_generator(id);
+  expects(row != nullptr, "a trial names generators that there are");
+  if (id == "splice") return std::make_unique<SplicedCases>(trial, *row);
+  return std::make_unique<DrawnCases>(trial, *row);
+}
+
 }  // namespace
 
 std::vector<TrialCase> plan_trial(const TrialConfig& trial) {
-  std::vector<RigCases> rigs;
-  for (const data::BenchKind rig : trial.rigs) rigs.emplace_back(trial, rig);
+  std::vector<std::unique_ptr<GeneratorCases>> generators;
+  for (const std::string& id : trial.generators) generators.push_back(cases_of(trial, id));
   std::vector<TrialCase> cases;
   for (int k = 0; k < trial.cases; ++k) {
-    const std::size_t turn = static_cast<std::size_t>(k) % rigs.size();
+    const std::size_t turn = static_cast<std::size_t>(k) % generators.size();
     TrialCase& one = cases.emplace_back();
     one.key = fmt::format("case-{:04d}", k);
-    one.plan.rig = trial.rigs[turn];
+    one.plan.generator = trial.generators[turn];
     one.plan.seed = lot_bits(trial.seed, "bench", static_cast<std::uint64_t>(k));
-    one.plan.effects = rigs[turn].next(one.plan.seed);
-    one.plan.disturbances = rigs[turn].next_disturbances();
-    one.plan.nuisances = trial.nuisances;
+    generators[turn]->next(one.plan);
   }
   return cases;
 }

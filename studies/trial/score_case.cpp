@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "flexspline/studies/trial.hpp"
@@ -12,6 +13,9 @@ constexpr std::size_t kMismatches = 3;
 using Names = std::set<std::string, std::less<>>;
 
 CaseKind kind_of(const ConcealedAnswer& answer) {
+  if (answer.generator == "splice") {
+    return answer.effects.empty() ? CaseKind::kept : CaseKind::spliced;
+  }
   if (answer.effects.empty()) return CaseKind::null;
   for (const data::HiddenFinding& effect : answer.effects) {
     if (data::hidden_class(effect.id) == data::HiddenClass::incident) return CaseKind::incident;
@@ -65,6 +69,23 @@ bool is_left(Verdict verdict) {
   return verdict == Verdict::unexplained || verdict == Verdict::partly_explained;
 }
 
+/// Intervals of the parameters that a right cause and the truth have in common.
+void score_intervals(const ConcealedAnswer& answer, const Cause& cause, CaseScore& score) {
+  constexpr double kNormal = 1.959963984540054;
+  for (const data::HiddenFinding& effect : answer.effects) {
+    if (effect.id != cause.effect) continue;
+    for (const CauseParameter& found : cause.parameters) {
+      const std::string key = key_of({found.name, found.value, found.unit});
+      const auto truth = std::ranges::find(effect.parameters, key,
+                                           [](const auto& parameter) { return key_of(parameter); });
+      if (truth == effect.parameters.end() || !std::isfinite(found.std)) continue;
+      score.intervals.push_back({effect.id + " " + key, found.value - kNormal * found.std,
+                                 found.value + kNormal * found.std,
+                                 std::copysign(truth->value, found.value)});
+    }
+  }
+}
+
 void score_location(const ConcealedAnswer& answer, const Diagnosis& diagnosis, CaseScore& score) {
   Names coordinates;
   for (const data::HiddenFinding& effect : answer.effects) {
@@ -93,6 +114,7 @@ NameScore score_names(const ConcealedAnswer& answer, CaseKind kind, Verdict verd
   const Names found(got.begin(), got.end());
   const auto is_right = [&](const std::string& name) { return right.contains(name); };
   NameScore score;
+  if (kind == CaseKind::kept || kind == CaseKind::spliced) return score;
   score.false_names = static_cast<int>(got.size() - std::ranges::count_if(got, is_right));
   if (kind == CaseKind::contained) {
     score.contained_right =
@@ -159,6 +181,10 @@ std::string_view name_of(CaseKind kind) {
       return "contained";
     case CaseKind::incident:
       return "incident";
+    case CaseKind::kept:
+      return "kept";
+    case CaseKind::spliced:
+      return "spliced";
     case CaseKind::unknown:
       break;
   }
@@ -177,6 +203,7 @@ CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis) 
     got.push_back(cause.effect);
     counted.push_back(counted_name(cause, right));
     score.names.push_back({cause.effect, right.contains(cause.effect), cause.probability});
+    score_intervals(answer, cause, score);
   }
   static_cast<NameScore&>(score) = score_names(answer, score.kind, diagnosis->verdict, got);
   score.with_alternatives = score_names(answer, score.kind, diagnosis->verdict, counted);
@@ -185,6 +212,7 @@ CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis) 
   score.null_right = score.kind == CaseKind::null && !score.detected && got.empty();
   score.unknown_right = (score.kind == CaseKind::unknown || score.kind == CaseKind::incident) &&
                         got.empty() && is_left(diagnosis->verdict);
+  if (answer.generator == "splice") score.names.clear();  // nobody knows which are right
   score.first_name = first_name(answer, *diagnosis, got, right);
   score_location(answer, *diagnosis, score);
   score_place(answer, *diagnosis, score);

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "flexspline/studies/trial.hpp"
+#include "trial/median.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -32,15 +33,6 @@ int with_alternatives(const std::vector<ScoredCase>& cases, bool NameScore::*mem
 
 Counts is(CaseKind kind) {
   return [kind](const CaseScore& score) { return score.kind == kind; };
-}
-
-/// The upper one of two in the middle, as the practice cases are scored.
-double median_of(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty()) return kNotComputed;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 void add_counters(const std::vector<ScoredCase>& cases, TrialScores& scores) {
@@ -98,7 +90,9 @@ void add_rates(const std::vector<ScoredCase>& cases, TrialScores& scores) {
   add("contained_ok_or_alternative", "contained_ok_or_alternative", "contained");
   add("coord_ok", "coord_ok", "coord");
   const int falsely = count(cases, [](const CaseScore& score) { return score.false_names > 0; });
-  const int diagnosed = scores.counter("cases") - scores.counter("failed");
+  const int diagnosed = count(cases, [](const CaseScore& score) {
+    return !score.failed && score.kind != CaseKind::kept && score.kind != CaseKind::spliced;
+  });
   scores.rates.emplace_back("false_name", proportion(falsely, diagnosed));
   const int beside =
       count(cases, [](const CaseScore& score) { return score.with_alternatives.false_names > 0; });
@@ -107,7 +101,7 @@ void add_rates(const std::vector<ScoredCase>& cases, TrialScores& scores) {
 
 /// Where there are locked rigs, of these alone: there the effort is one sensor's, whose noise is
 /// known, and practice cases are scored so.
-double median_of(const std::vector<ScoredCase>& cases, double CaseScore::*member) {
+double median_over(const std::vector<ScoredCase>& cases, double CaseScore::*member) {
   const auto locked = [](const ScoredCase& one) { return one.answer.rig.rig == Rig::locked; };
   const bool any = std::ranges::any_of(cases, locked);
   std::vector<double> values;
@@ -123,9 +117,9 @@ void add_medians(const std::vector<ScoredCase>& cases, TrialScores& scores) {
     if (std::isfinite(one.seconds)) seconds.push_back(one.seconds);
   }
   scores.medians = {
-      {"holdout_after_over_noise_median", median_of(cases, &CaseScore::after_over_noise)},
-      {"holdout_after_over_best_median", median_of(cases, &CaseScore::after_over_best)},
-      {"gain_share_median", median_of(cases, &CaseScore::gain_share)},
+      {"holdout_after_over_noise_median", median_over(cases, &CaseScore::after_over_noise)},
+      {"holdout_after_over_best_median", median_over(cases, &CaseScore::after_over_best)},
+      {"gain_share_median", median_over(cases, &CaseScore::gain_share)},
       {"seconds_median", median_of(seconds)},
       {"seconds_max", seconds.empty() ? kNotComputed : *std::ranges::max_element(seconds)}};
 }

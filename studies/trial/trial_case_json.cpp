@@ -35,7 +35,7 @@ double number(const ordered_json& json, const char* key) {
 
 CaseKind kind_of(const std::string& name) {
   for (const CaseKind kind : {CaseKind::null, CaseKind::single, CaseKind::pair, CaseKind::contained,
-                              CaseKind::incident}) {
+                              CaseKind::incident, CaseKind::kept, CaseKind::spliced}) {
     if (name_of(kind) == name) return kind;
   }
   return CaseKind::unknown;
@@ -70,6 +70,15 @@ ordered_json names_json(const std::vector<GivenName>& names) {
   return list;
 }
 
+ordered_json intervals_json(const std::vector<GivenInterval>& intervals) {
+  ordered_json list = ordered_json::array();
+  for (const GivenInterval& one : intervals) {
+    list.push_back(
+        {{"parameter", one.parameter}, {"ci95", {one.lower, one.upper}}, {"truth", one.truth}});
+  }
+  return list;
+}
+
 CaseScore score_from_json(const ordered_json& json) {
   CaseScore score;
   static_cast<NameScore&>(score) = name_score_from_json(json);
@@ -77,6 +86,11 @@ CaseScore score_from_json(const ordered_json& json) {
   for (const ordered_json& one : json.at("names")) {
     score.names.push_back({one.at("effect").get<std::string>(), one.at("right").get<bool>(),
                            number(one, "probability")});
+  }
+  for (const ordered_json& one : json.at("intervals")) {
+    score.intervals.push_back({one.at("parameter").get<std::string>(),
+                               one.at("ci95").at(0).get<double>(),
+                               one.at("ci95").at(1).get<double>(), number(one, "truth")});
   }
   score.kind = kind_of(json.at("kind").get<std::string>());
   score.failed = json.at("failed").get<bool>();
@@ -139,6 +153,7 @@ ordered_json to_json(const CaseScore& score) {
                {"first_name", score.first_name},
                {"with_alternatives", name_score_json(score.with_alternatives)},
                {"names", names_json(score.names)},
+               {"intervals", intervals_json(score.intervals)},
                {"over_noise", score.over_noise},
                {"after_over_noise", score.after_over_noise},
                {"after_over_best", score.after_over_best},

@@ -11,6 +11,7 @@ namespace {
 
 std::string truth_label(const ScoredCase& one) {
   if (one.score.kind == CaseKind::null) return "nothing";
+  if (one.score.kind == CaseKind::kept) return "as recorded";
   if (one.score.kind == CaseKind::pair) return "two effects";
   if (one.score.kind == CaseKind::contained) return "contained in the baseline";
   return one.answer.effects.front().id;
@@ -88,6 +89,22 @@ std::vector<ScoredCase> of_rig(const std::vector<ScoredCase>& cases, data::Bench
   std::vector<ScoredCase> some = cases;
   std::erase_if(some, [rig](const ScoredCase& one) { return one.answer.rig != rig; });
   return some;
+}
+
+std::map<std::string, std::vector<ScoredCase>> by_generator(const std::vector<ScoredCase>& cases) {
+  std::map<std::string, std::vector<ScoredCase>> groups;
+  for (const ScoredCase& one : cases) groups[one.answer.generator].push_back(one);
+  return groups;
+}
+
+std::map<std::string, std::vector<ScoredCase>> by_disturbance(
+    const std::vector<ScoredCase>& cases) {
+  std::map<std::string, std::vector<ScoredCase>> groups;
+  for (const ScoredCase& one : cases) {
+    if (one.answer.disturbances.empty()) groups["none"].push_back(one);
+    for (const AppliedDisturbance& by : one.answer.disturbances) groups[by.id].push_back(one);
+  }
+  return groups;
 }
 
 std::map<std::pair<std::string, std::string>, std::vector<ScoredCase>> by_effect(

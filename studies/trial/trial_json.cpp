@@ -9,15 +9,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
+ordered_json rate_json(const Proportion& one) {
+  return {
+      {"count", one.count}, {"of", one.of}, {"rate", one.rate()}, {"ci95", {one.lower, one.upper}}};
+}
+
 ordered_json scores_json(const TrialScores& scores) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, value] : scores.counters) json[name] = value;
   for (const auto& [name, value] : scores.medians) json[name] = value;
   for (const auto& [name, one] : scores.rates) {
-    json["rates"][name] = {{"count", one.count},
-                           {"of", one.of},
-                           {"rate", one.rate()},
-                           {"ci95", {one.lower, one.upper}}};
+    json["rates"][name] = rate_json(one);
   }
   return json;
 }
@@ -25,6 +27,8 @@ ordered_json scores_json(const TrialScores& scores) {
 ordered_json case_json(const ScoredCase& one) {
   ordered_json json = {
       {"key", one.key},
+      {"generator", one.answer.generator},
+      {"disturbances", ordered_json::array()},
       {"rig", name_of(one.answer.rig)},
       {"effects", ordered_json::array()},
       {"size", ordered_json::array()},
@@ -37,6 +41,9 @@ ordered_json case_json(const ScoredCase& one) {
       {"after_over_noise", one.score.after_over_noise},
       {"seconds", one.seconds},
       {"failure", one.failure.empty() ? ordered_json(nullptr) : ordered_json(one.failure)}};
+  for (const AppliedDisturbance& disturbance : one.answer.disturbances) {
+    json["disturbances"].push_back(disturbance.id);
+  }
   for (const data::HiddenFinding& effect : one.answer.effects) {
     json["effects"].push_back(effect.id);
     json["size"].push_back(effect.size_fraction);
@@ -52,6 +59,7 @@ ordered_json design_json(const TrialConfig& trial) {
   const ConcealDraw& draw = trial.draw;
   return {{"seed", trial.seed},
           {"cases", trial.cases},
+          {"generators", trial.generators},
           {"rigs", rigs},
           {"none", draw.none},
           {"one", draw.one},
@@ -79,6 +87,39 @@ ordered_json twins_json(const TrialConfig& trial) {
     }
   }
   return list;
+}
+
+ordered_json reliability_json(const std::vector<ScoredCase>& cases) {
+  ordered_json list = ordered_json::array();
+  for (const ReliabilityBin& bin : reliability_of(cases)) {
+    list.push_back({{"from", bin.from},
+                    {"to", bin.to},
+                    {"mean_probability", bin.mean_probability},
+                    {"right", rate_json(bin.right)}});
+  }
+  return list;
+}
+
+ordered_json splice_json(const SpliceScores& scores) {
+  return {{"found_small", rate_json(scores.found_small)},
+          {"found_large", rate_json(scores.found_large)},
+          {"same_verdict", rate_json(scores.same_verdict)},
+          {"names_shared", scores.names_shared},
+          {"changed", scores.changed}};
+}
+
+/// What the answers are worth beside their names: printed probabilities, intervals, hold-outs.
+void add_calibration(const std::vector<ScoredCase>& cases, ordered_json& json) {
+  json["reliability"] = reliability_json(cases);
+  json["coverage"] = ordered_json::object();
+  for (const auto& [name, rate] : coverage_of(cases)) json["coverage"][name] = rate_json(rate);
+  json["by_verdict"] = ordered_json::array();
+  for (const VerdictError& one : errors_by_verdict(cases)) {
+    json["by_verdict"].push_back({{"verdict", one.verdict},
+                                  {"cases", one.count},
+                                  {"holdout_over_noise_median", one.median}});
+  }
+  json["splices"] = splice_json(splice_scores(cases));
 }
 
 ordered_json bins_json(const std::vector<DetectionBin>& bins) {
@@ -129,6 +170,14 @@ ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary,
     json["by_rig"][std::string(name_of(rig))] =
         scores_json(score_trial(of_rig(summary.cases, rig)));
   }
+  for (const auto& [id, cases] : by_generator(summary.cases)) {
+    json["by_generator"][id] = scores_json(score_trial(cases));
+  }
+  json["by_disturbance"] = ordered_json::object();
+  for (const auto& [id, cases] : by_disturbance(summary.cases)) {
+    json["by_disturbance"][id] = scores_json(score_trial(cases));
+  }
+  add_calibration(summary.cases, json);
   add_groups(summary.cases, json);
   json["twins"] = twins_json(trial);
   json["not_concealed"] = summary.not_concealed;

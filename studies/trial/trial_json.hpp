@@ -42,6 +42,10 @@ using Confusion = std::map<std::pair<std::string, std::string>, int>;
 
 Confusion confusion_of(const std::vector<ScoredCase>& cases);
 
+/// The cases by generator, and by what disturbs them ("none": nothing).
+std::map<std::string, std::vector<ScoredCase>> by_generator(const std::vector<ScoredCase>& cases);
+std::map<std::string, std::vector<ScoredCase>> by_disturbance(const std::vector<ScoredCase>& cases);
+
 /// The cases of one rig, and of one single effect on it.
 std::vector<ScoredCase> of_rig(const std::vector<ScoredCase>& cases, data::BenchKind rig);
 std::map<std::pair<std::string, std::string>, std::vector<ScoredCase>> by_effect(

@@ -57,6 +57,33 @@ TextTable scores(const TrialSummary& summary) {
   return table;
 }
 
+/// A row for each rate of each group of cases.
+TextTable grouped_rates(const std::string& name, const std::string& by,
+                        const std::map<std::string, std::vector<ScoredCase>>& groups) {
+  TextTable table{name, {{by, "rate", "count", "of", "percent", "from", "to (95 %)"}}};
+  for (const auto& [group, cases] : groups) {
+    for (Row& row : rates("", score_trial(cases)).rows) {
+      if (row.front() == "rate" || row[2] == "0") continue;
+      row.insert(row.begin(), group);
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+TextTable reliability(const std::vector<ScoredCase>& cases) {
+  TextTable table{
+      "reliability",
+      {{"probability from", "to", "mean", "names", "right", "percent", "from", "to (95 %)"}}};
+  for (const ReliabilityBin& bin : reliability_of(cases)) {
+    table.rows.push_back({shown(bin.from), shown(bin.to), shown(bin.mean_probability),
+                          std::to_string(bin.right.of), std::to_string(bin.right.count),
+                          percent(bin.right.rate()), percent(bin.right.lower),
+                          percent(bin.right.upper)});
+  }
+  return table;
+}
+
 TextTable confusion(const std::vector<ScoredCase>& cases) {
   const Confusion counts = confusion_of(cases);
   std::set<std::string> named;
@@ -145,8 +172,10 @@ Result<void> write_trial_tables(const TrialSummary& summary, const std::filesyst
   const auto& cases = summary.cases;
   for (const TextTable& table :
        {scores(summary), rates("rates", score_trial(cases)),
-        rates("rates_seen", score_trial(that_can_be_seen(cases))), confusion(cases),
-        detection("by_size", "size", detection_by_size(cases)),
+        rates("rates_seen", score_trial(that_can_be_seen(cases))),
+        grouped_rates("by_generator", "generator", by_generator(cases)),
+        grouped_rates("by_disturbance", "disturbance", by_disturbance(cases)), reliability(cases),
+        confusion(cases), detection("by_size", "size", detection_by_size(cases)),
         detection("by_trace", "trace", detection_by_trace(cases)), effects(cases), list(cases)}) {
     if (const auto written = write(folder, table); !written) return written;
   }

@@ -213,6 +213,31 @@ TEST(TrialReport, ShowsScoresConfusionAndEveryCase) {
   EXPECT_FALSE(contains(markup, "<img"));
 }
 
+// The fixture with groups, printed probabilities and splices, as newer trials have them.
+TEST(TrialReport, ShowsWhatAPrintedProbabilityIsWorth) {
+  const StudyFolder folder("trial_fixture");
+  const ordered_json rate = {{"count", 45}, {"of", 60}, {"rate", 0.75}, {"ci95", {0.63, 0.84}}};
+  change(folder, "trial.json", [&rate](ordered_json& trial) {
+    trial["reliability"] = ordered_json::array(
+        {{{"from", 0.9}, {"to", 0.95}, {"mean_probability", 0.92}, {"right", rate}}});
+    trial["by_generator"]["mujoco"]["rates"]["null_ok"] = rate;
+    trial["by_disturbance"]["coloured_noise"]["rates"]["false_name"] = rate;
+    trial["coverage"]["all"] = rate;
+    trial["by_verdict"] = ordered_json::array(
+        {{{"verdict", "adequate"}, {"cases", 9}, {"holdout_over_noise_median", 1.1}}});
+    trial["splices"]["found_large"] = rate;
+  });
+  const auto page = write_report(folder.path());
+  ASSERT_TRUE(page) << page.error().message();
+  const ordered_json panel = figure_of(folder, "reliability")["frames"][0]["panels"][0];
+  EXPECT_EQ(panel["series"][0]["x"][0], 92.0);
+  EXPECT_EQ(panel["series"][0]["y"][0], 75.0);
+  EXPECT_TRUE(contains(folder.text("tables/trial-by-disturbance.csv"), "coloured noise"));
+  EXPECT_TRUE(contains(folder.text("tables/trial-by-generator.csv"), "mujoco"));
+  EXPECT_TRUE(contains(folder.text("tables/trial-splices.csv"), "45"));
+  EXPECT_TRUE(contains(folder.text("tables/trial-by-verdict.csv"), "1.1"));
+}
+
 TEST(TrialReport, TicksRightNamesInTheConfusionAndNoOthers) {
   const StudyFolder folder("trial_fixture");
   ASSERT_TRUE(write_report(folder.path()));

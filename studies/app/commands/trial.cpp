@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,7 @@ std::string summary_of(const TrialScores& scores) {
   text += rate_line(scores, "unknown_unnamed", "outside the catalogue, not named");
   text += rate_line(scores, "unknown_ok", "the same, and called unexplained");
   text += rate_line(scores, "contained_ok", "contained in the baseline, no false name");
+  text += rate_line(scores, "incident_ok", "inside one recording, placed");
   text += rate_line(scores, "coord_ok", "right coordinate among three");
   text += rate_line(scores, "false_name", "cases with a false name");
   const auto median = [&](const char* name, const char* says, const char* unit) {
@@ -67,6 +69,18 @@ studies::TrialSettings settings_of(const Arguments& arguments, long jobs, Consol
   return settings;
 }
 
+/// Where there are several generators, the rates of each; then of all.
+std::string summary_of(const studies::TrialSummary& summary) {
+  std::map<std::string, std::vector<studies::ScoredCase>> groups;
+  for (const auto& one : summary.cases) groups[one.answer.generator].push_back(one);
+  std::string text;
+  for (const auto& [generator, cases] : groups) {
+    if (groups.size() > 1) text += generator + ":\n" + summary_of(studies::score_trial(cases));
+  }
+  if (groups.size() > 1) text += "together:\n";
+  return text + summary_of(studies::score_trial(summary.cases));
+}
+
 Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesystem::path& folder,
                       Console& console) {
   for (const std::string& one : summary.not_concealed) console.say("not concealed: " + one);
@@ -87,7 +101,7 @@ Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesyste
     for (const auto& [name, value] : scores.medians) text["scores"][name] = value;
     console.result(text.dump(2));
   } else {
-    console.say(summary_of(scores));
+    console.say(summary_of(summary));
     console.result(page->string());
   }
   return summary.run.failed.empty() && summary.not_concealed.empty() ? kDone : kSomethingFailed;
@@ -96,7 +110,7 @@ Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesyste
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const Result<long> jobs = jobs_of(arguments);
   if (!jobs) return tl::unexpected(jobs.error());
-  const auto trial = studies::load_trial(arguments.text("study"));
+  const auto trial = studies::load_trial(arguments.text("study"), arguments.text("data-root"));
   if (!trial) return tl::unexpected(trial.error());
   catch_stop_signals();
   const studies::TrialSettings settings = settings_of(arguments, *jobs, console);
@@ -124,6 +138,9 @@ CommandRow describe_trial() {
             .value = "DIR",
             .required = true},
            {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
+           {.name = "--data-root",
+            .meaning = "folder of the data sets to splice into; default: the trial file's",
+            .value = "DIR"},
            {.name = "--recordings",
             .meaning = "keep every case's data set in this folder; "
                        "default: none is kept",

@@ -81,7 +81,7 @@ Result<Verdict> check(const std::filesystem::path& path, const std::string& data
     return check_plain<&studies::read_conceal_plan>("bench", path);
   }
   if (content->find("flexspline-trial/") != std::string::npos) {
-    return check_plain<&studies::read_trial>("trial", path);
+    return check_plain<[](const auto& file) { return studies::read_trial(file); }>("trial", path);
   }
   if (content->find(data::kSealedSchema) != std::string::npos) return check_seal(path);
   return check_study(path, data_root);

@@ -50,6 +50,27 @@ struct ShownEffectScore {
   double after_over_noise = kAbsent;
 };
 
+/// Names given with a probability in a range, and how many were right.
+struct ShownReliabilityBin {
+  double from = kAbsent;
+  double to = kAbsent;
+  double mean_probability = kAbsent;
+  ShownRate right;
+};
+
+/// Recordings by others with an effect spliced in, or changed.
+struct ShownSplices {
+  ShownRate found_small, found_large, same_verdict;
+  double names_shared = kAbsent;
+};
+
+/// Hold-out error over the noise of the cases with one verdict.
+struct ShownVerdictError {
+  std::string verdict;
+  double cases = 0.0;
+  double median = kAbsent;
+};
+
 struct ShownConfusion {
   std::string truth, named;
   double count = 0.0;
@@ -75,6 +96,12 @@ struct TrialView {
   ShownScores scores;
   ShownScores scores_seen;  ///< of the cases that can be seen
   std::map<std::string, ShownScores> by_rig;
+  std::map<std::string, ShownScores> by_generator;
+  std::map<std::string, ShownScores> by_disturbance;
+  std::vector<ShownReliabilityBin> reliability;
+  std::map<std::string, ShownRate> coverage;
+  std::vector<ShownVerdictError> by_verdict;
+  ShownSplices splices;
   std::vector<ShownDetectionBin> by_size;
   std::vector<ShownDetectionBin> by_trace;
   std::vector<ShownEffectScore> by_effect;

@@ -37,6 +37,9 @@ struct ConcealDraw {
 /// A bench with something to conceal, as read. SI.
 struct ConcealPlan {
   std::filesystem::path file;
+  std::string generator = "bench";  ///< id of a row of studies/generators
+  std::filesystem::path source;     ///< what it works upon: a script, a data set
+  std::string change = "none";      ///< of spliced recordings: an id of data::splice_changes()
   data::BenchKind rig;
   std::uint64_t seed = 1;
   std::vector<std::string> disturbances;       ///< ids of data::disturbances(), in their order
@@ -94,6 +97,9 @@ struct AppliedDisturbance {
 
 /// The truth of a concealed case. Torques in Nm.
 struct ConcealedAnswer {
+  std::string generator = "bench";
+  std::string source;           ///< of spliced recordings: the name of their data set
+  std::string change = "none";  ///< and what was done to them
   data::BenchKind rig;
   std::uint64_t seed = 0;
   std::vector<data::HiddenFinding> effects;  ///< by id; empty: nothing
@@ -105,8 +111,11 @@ struct ConcealedAnswer {
   std::string dataset_sha256;
 };
 
+/// The key of a parameter in an answer: name and unit, "stiffness_Nm_rad".
+std::string key_of(const data::HiddenParameter& parameter);
+
 /// Keys as those of practice cases: rig, effects, size, coordinate, info, noise_std_nm, twins,
-/// tau_max; and seed, equation, names, place, disturbances, best_rmse_nm, dataset_sha256.
+/// tau_max; and generator, source, change, seed, equation, names, place, disturbances, best_rmse_nm, dataset_sha256.
 nlohmann::ordered_json to_json(const ConcealedAnswer& answer);
 
 /// What scoring needs of an answer. Errors: bad_data, naming the key.

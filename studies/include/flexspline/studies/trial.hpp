@@ -22,6 +22,9 @@ struct TrialConfig {
   std::string name;
   std::string title;
   std::uint64_t seed = 1;
+  std::vector<std::string> generators = {"bench"};  ///< ids of rows of studies/generators
+  std::filesystem::path mujoco_script;              ///< of the generator "mujoco"
+  std::vector<std::filesystem::path> spliced_sets;  ///< of "splice": recordings by others
   std::vector<data::BenchKind> rigs;
   int cases = 0;
   double time_limit = 180.0;  ///< s; a diagnosis that takes longer has failed
@@ -36,12 +39,15 @@ struct TrialReading {
 };
 
 /// Reads a trial of format "flexspline-trial/1" (docs/trials.md).
+/// data_root: where the data sets to splice into lie; empty: beside the file.
 /// Errors: input_missing when the file cannot be read. What is wrong in it is in the reading.
-Result<TrialReading> read_trial(const std::filesystem::path& file);
+Result<TrialReading> read_trial(const std::filesystem::path& file,
+                                const std::filesystem::path& data_root = {});
 
 /// The same for callers that go no further on a failure.
 /// Errors: input_missing, or bad_data with every finding.
-Result<TrialConfig> load_trial(const std::filesystem::path& file);
+Result<TrialConfig> load_trial(const std::filesystem::path& file,
+                               const std::filesystem::path& data_root = {});
 
 /// One bench of a trial. Depends on the trial's seed and the case's number alone, not on how many
 /// cases there are.
@@ -50,12 +56,15 @@ struct TrialCase {
   ConcealPlan plan;
 };
 
-/// Rigs take turns; kinds come in their shares, evenly spread; every rig's effects come in turn, in
-/// an order of their own, so that all are tried about equally often.
+/// Generators take turns, and with each its rigs, of those that the trial asks for; kinds come in their shares, evenly spread; every rig's effects come in turn, in
+/// an order of their own, so that all are tried about equally often. What is spliced goes through the
+/// recordings: each as it is, then changed, then with an effect of the smallest and the largest size.
 std::vector<TrialCase> plan_trial(const TrialConfig& trial);
 
 /// What a case was, by what it hides.
-enum class CaseKind { null, single, pair, unknown, contained, incident };
+/// kept, spliced: recordings by others without and with an effect added; what they hide themselves
+/// nobody knows.
+enum class CaseKind { null, single, pair, unknown, contained, incident, kept, spliced };
 
 std::string_view name_of(CaseKind kind);
 
@@ -76,6 +85,16 @@ struct GivenName {
   double probability = kNotComputed;
 };
 
+/// An interval that was printed, of a parameter that the truth has under the same name and unit.
+struct GivenInterval {
+  std::string parameter;  ///< "backlash half_gap_rad"
+  double lower = kNotComputed;
+  double upper = kNotComputed;
+  double truth = kNotComputed;  ///< with the sign of what was found: that is each formula's own
+
+  bool covers() const { return lower <= truth && truth <= upper; }
+};
+
 /// A diagnosis held against the truth. Right is a name of the truth's class: the effect itself,
 /// what the bench says is right for it, or a structural twin.
 struct CaseScore : NameScore {
@@ -93,6 +112,7 @@ struct CaseScore : NameScore {
   /// The same where a cause counts as right, too, when one of its first two alternatives is.
   NameScore with_alternatives;
   std::vector<GivenName> names;
+  std::vector<GivenInterval> intervals;
   double over_noise = kNotComputed;        ///< hold-out after over the noise, whatever is hidden
   double after_over_noise = kNotComputed;  ///< the same of named cases
   double after_over_best = kNotComputed;   ///< over what the true drive leaves
@@ -155,6 +175,39 @@ struct TrialScores {
 };
 
 TrialScores score_trial(const std::vector<ScoredCase>& cases);
+
+/// Names given with a probability in [from, to): of those at p, p should be right.
+struct ReliabilityBin {
+  double from = 0.0;
+  double to = 0.0;
+  double mean_probability = kNotComputed;
+  Proportion right;
+};
+
+std::vector<ReliabilityBin> reliability_of(const std::vector<ScoredCase>& cases);
+
+/// How often printed 95 % intervals hold the truth, by parameter; "all" first.
+std::vector<std::pair<std::string, Proportion>> coverage_of(const std::vector<ScoredCase>& cases);
+
+/// Hold-out error over the noise, by verdict: count and median.
+struct VerdictError {
+  std::string verdict;
+  int count = 0;
+  double median = kNotComputed;
+};
+
+std::vector<VerdictError> errors_by_verdict(const std::vector<ScoredCase>& cases);
+
+/// Recordings by others with an effect spliced in, or changed, against the same as they are.
+struct SpliceScores {
+  Proportion found_small;   ///< of the effects below 5 % that the recordings alone do not show
+  Proportion found_large;   ///< and of the others
+  Proportion same_verdict;  ///< of the changed ones
+  double names_shared = kNotComputed;  ///< of these: names in both over names in either, mean
+  int changed = 0;
+};
+
+SpliceScores splice_scores(const std::vector<ScoredCase>& cases);
 
 /// Diagnoses recordings; a trial is told which, so that it can be tried with others.
 using Diagnose =
