@@ -28,16 +28,17 @@ ShownMismatch parse_mismatch(const json& from) {
           number_in(from, "share_of_excess")};
 }
 
-/// The artefact has standard deviations; their normal interval is shown.
-Parameter parse_parameter(const json& from) {
-  constexpr double kNormal95 = 1.959964;
-  Parameter parameter;
+ShownCauseParameter parse_parameter(const json& from) {
+  ShownCauseParameter parameter;
   parameter.name = text_in(from, "name");
   parameter.unit = text_in(from, "unit");
   parameter.value = number_in(from, "value");
   parameter.std = number_in(from, "std");
-  parameter.lower = parameter.value - kNormal95 * parameter.std;
-  parameter.upper = parameter.value + kNormal95 * parameter.std;
+  const std::vector<double> interval = numbers_in(from, "ci95");
+  parameter.lower = element(interval, 0);
+  parameter.upper = element(interval, 1);
+  parameter.meaning = text_in(from, "meaning");
+  parameter.no_interval = text_in(from, "no_interval");
   return parameter;
 }
 
@@ -47,6 +48,9 @@ ShownCause parse_cause(const json& from) {
   cause.equation = text_in(from, "equation");
   cause.probability = number_in(from, "probability");
   cause.size_fraction = number_in(from, "size_fraction");
+  cause.size = number_in(from, "size");
+  cause.unit = text_in(from, "unit");
+  cause.size_of = text_in(from, "size_of");
   cause.alternatives = texts_in(from, "alternatives");
   for (const json& one : member(from, "parameters")) {
     cause.parameters.push_back(parse_parameter(one));
@@ -114,6 +118,8 @@ void parse_numbers(const json& artefact, DiagnosisView& into) {
   into.ratio_lower = element(interval, 0);
   into.ratio_upper = element(interval, 1);
   into.noise_floor = number_in(holdout, "noise_floor_nm");
+  const json& nested = member(holdout, "nested");
+  into.nested = nested.is_boolean() && nested.get<bool>();
   into.seconds = number_in(artefact, "seconds");
 }
 
@@ -178,7 +184,9 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   view.next = parse_experiment(member(artefact, "next_experiment"));
   parse_list(artefact, "series", parse_series, view.series);
   view.has_model = !member(artefact, "model").empty();
-  view.notes = texts_in(artefact, "notes");
+  for (const json& note : member(artefact, "notes")) {
+    view.notes.push_back(note.is_string() ? note.get<std::string>() : text_in(note, "says"));
+  }
   for (const auto& [name, version] : member(artefact, "versions").items()) {
     if (version.is_string()) view.versions[name] = version.get<std::string>();
   }

@@ -20,7 +20,11 @@ std::string meaning_of(const std::string& verdict) {
            "the catalogue explains.";
   }
   if (verdict == "unexplained") {
-    return "Unexplained: something was left out to which no effect of the catalogue can give a name.";
+    return "Unexplained: something was left out to which no effect of the catalogue can give a "
+           "name.";
+  }
+  if (verdict == "undecided") {
+    return "Undecided: these recordings cannot tell whether anything was left out, or what.";
   }
   return "The verdict is not one of flexspline-diagnosis/1: " + verdict;
 }
@@ -30,23 +34,26 @@ std::string with_unit(const DiagnosisView& view, double rmse) {
 }
 
 std::string baseline_sentence(const DiagnosisView& view) {
+  if (!std::isfinite(view.rmse_train)) return "Nothing was fitted.";
   std::string text = "The baseline (" + view.baseline + ") leaves " +
                      with_unit(view, view.rmse_train) + " rms on the recordings it was fitted to";
   if (std::isfinite(view.rmse_holdout)) {
-    text += " and " + with_unit(view, view.rmse_holdout) + " on those it had not seen";
+    text += " and " + with_unit(view, view.rmse_holdout) + " on rows held out from it";
   }
   return text + "; the noise is " + with_unit(view, view.noise) + ".";
 }
 
 Table causes_table(const DiagnosisView& view) {
   Table table{"causes",
-              "What was left out, in the order in which the search took it in. The size is the "
-              "largest contribution over the largest torque; the hold-out ratio is the misfit with "
-              "it, beside all the others, over the misfit without it, on recordings that it had not "
-              "seen.",
+              "What was left out, largest first. The size is the largest contribution, in percent "
+              "of the largest torque; the weight is its share of belief among the causes tried, no "
+              "calibrated probability; the hold-out ratio is the misfit with it, beside all the "
+              "others, over the misfit without it, cross-validated, selection not nested.",
               {{"left out", "", 3},
-               {"size", "%", 2},
-               {"probability", "%", 3},
+               {"size", "", 3},
+               {"unit", "", 3},
+               {"of the largest torque", "%", 2},
+               {"weight", "", 2},
                {"hold-out ratio", "", 2},
                {"could as well be", "", 3}},
               {}};
@@ -55,11 +62,10 @@ Table causes_table(const DiagnosisView& view) {
     for (const std::string& one : cause.alternatives) {
       others += (others.empty() ? "" : ", ") + words(one);
     }
-    table.rows.push_back({words(cause.effect), 100.0 * cause.size_fraction,
-                          100.0 * cause.probability, cause.holdout_ratio,
-                          others.empty() ? "–" : others});
+    table.rows.push_back({words(cause.effect), cause.size, cause.unit, 100.0 * cause.size_fraction,
+                          cause.probability, cause.holdout_ratio, others.empty() ? "–" : others});
   }
-  return table;
+  return without_empty_columns(std::move(table));
 }
 
 std::optional<Section> draw(const DiagnosisView& view) {

@@ -6,19 +6,18 @@
 namespace flexspline::reports {
 namespace {
 
-/// No finite data make anything certain.
-std::string probability_of(const ShownCause& cause) {
-  return cause.probability > 0.999 ? "above 99.9" : digits(100.0 * cause.probability, 3);
-}
+constexpr double kSmallestP = 1e-12;  // beyond it nobody knows a noise's tails
 
 std::string sentence_of(const ShownCause& cause) {
   std::string text = "Left out";
   if (std::isfinite(cause.probability)) {
-    text += " with probability " + probability_of(cause) + " %";
+    text += ", with a weight of " + digits(cause.probability, 2) + " among the causes tried";
   }
   if (std::isfinite(cause.size_fraction)) {
-    text += "; at its largest it is " + digits(100.0 * cause.size_fraction, 2) +
-            " % of the largest torque";
+    text += "; at its largest it is ";
+    if (std::isfinite(cause.size)) text += digits(cause.size, 3) + " " + cause.unit + ", ";
+    text += digits(100.0 * cause.size_fraction, 2) + " % of " +
+            (cause.size_of.empty() ? "the largest torque" : cause.size_of);
   }
   text += ".";
   if (cause.alternatives.empty()) return text;
@@ -32,16 +31,20 @@ std::string sentence_of(const ShownCause& cause) {
 Table parameters_table(const ShownCause& cause) {
   Table table{"parameters-" + slug(cause.effect),
               "Parameters of " + words(cause.effect) +
-                  " with their standard deviations and 95 % intervals.",
+                  " with their standard deviations and 95 % intervals: all parameters free, the "
+                  "residual's colour and misfit counted, the form taken for right.",
               {{"parameter", "", 3},
+               {"meaning", "", 3},
                {"value", "", 4},
                {"std", "", 2},
                {"from", "", 4},
                {"to (95 %)", "", 4},
-               {"unit", "", 3}},
+               {"unit", "", 3},
+               {"no interval", "", 3}},
               {}};
-  for (const Parameter& one : cause.parameters) {
-    table.rows.push_back({one.name, one.value, one.std, one.lower, one.upper, one.unit});
+  for (const ShownCauseParameter& one : cause.parameters) {
+    table.rows.push_back({one.name, one.meaning, one.value, one.std, one.lower, one.upper, one.unit,
+                          one.no_interval});
   }
   return without_empty_columns(std::move(table));
 }
@@ -51,17 +54,19 @@ Table evidence_table(const DiagnosisView& view) {
       "evidence",
       "What speaks for each cause. p: that noise alone would score as high. Delta BIC: with "
       "it less without it, negative speaks for it. Hold-out ratio: misfit with it over "
-      "misfit without it, on recordings that the fit had not seen.",
+      "misfit without it, cross-validated, selection not nested.",
       {{"left out", "", 3}, {"p", "", 2}, {"delta BIC", "", 3}, {"hold-out ratio", "", 3}},
       {}};
   for (const ShownCause& cause : view.causes) {
-    table.rows.push_back(
-        {words(cause.effect), cause.p_value, cause.delta_bic, cause.holdout_ratio});
+    const bool tiny = cause.p_value <= kSmallestP;
+    table.rows.push_back({words(cause.effect), tiny ? Cell("< 1e-12") : Cell(cause.p_value),
+                          cause.delta_bic, cause.holdout_ratio});
   }
   return without_empty_columns(std::move(table));
 }
 
 std::string nothing_named(const DiagnosisView& view) {
+  if (view.verdict == "undecided") return "Nothing is named: these recordings cannot tell.";
   return view.adequate()
              ? "Nothing: the baseline is enough for these recordings."
              : "No effect of the catalogue is named. What is left over has a place (see "

@@ -48,8 +48,8 @@ Figure headline_figure(const DiagnosisView& view) {
   figure.id = "headline";
   const ShownSeries* series = shown_series(view);
   if (series == nullptr) return figure;
-  figure.title = (series->trained ? "One recording: " : "A recording that no fit had seen: ") +
-                 series->recording;
+  figure.title =
+      (series->trained ? "One recording: " : "A recording held out: ") + series->recording;
   figure.caption = has_after(*series)
                        ? "Left without, right with what was left out. The wide line is measured; "
                          "what it shows beside the thin one is what the model lacks."

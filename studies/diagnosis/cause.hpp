@@ -20,6 +20,19 @@ struct Shape {
   int grid = 5;  ///< starts tried, even in the logarithm where that is how it is searched
   bool logarithmic = true;
   bool discrete = false;  ///< lower, lower + 1, ... upper; tried, not refined
+  std::string_view meaning = {};
+};
+
+/// What the coefficient of a column is, for a person.
+struct Term {
+  std::string name;
+  std::string unit;  ///< SI
+  std::string meaning;
+  /// Of one element among several: where on its fixed grid it stands, which was not fitted.
+  std::string grid_name{};
+  double grid_value = 0.0;
+  std::string grid_unit{};
+  std::string grid_meaning{};
 };
 
 /// What the last fit knows of the baseline's laws along the rows. Nm at the equation's shaft.
@@ -41,12 +54,14 @@ struct CauseForm {
   std::vector<Rig> rigs;
   std::vector<Equation> at;
   std::vector<Shape> (*shapes)(const Frame&) = nullptr;
+  std::vector<Term> (*terms)(const Frame&) = nullptr;  ///< one a column
   Columns (*columns)(Equation, const Frame&, const Reference&, std::span<const double>) = nullptr;
   void (*transform)(Frame&, std::span<const double>) = nullptr;
   /// Start of the shapes of a transform, from the recordings; without it the grid is searched.
   std::vector<double> (*start)(const Frame&) = nullptr;
   bool nonnegative = false;  ///< a_k >= 0
   bool friction = false;     ///< resists the motion across the transmission, beside g^-1
+  bool rescales = false;     ///< a channel, by 1 + a or 1 - a, and does nothing else
   bool extends = false;      ///< the form before it in the row, by its last shape
   bool (*where)(const Frame&) = nullptr;  ///< what the recordings must be like; nullptr: anything
   /// Whether it ripples this many times a turn of the motor in steady strokes.

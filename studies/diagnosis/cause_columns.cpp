@@ -55,6 +55,17 @@ std::vector<double> geometric(double first, double last, int count) {
   return values;
 }
 
+std::vector<Term> elements(const std::vector<double>& grid, const Term& each) {
+  std::vector<Term> terms;
+  for (const double value : grid) {
+    terms.push_back(each);
+    const std::string number = "_" + std::to_string(terms.size());
+    terms.back().name += number, terms.back().grid_name += number;
+    terms.back().grid_value = value;
+  }
+  return terms;
+}
+
 ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
   ArrayXd shifted(frame.rows());
   for (const Segment& s : frame.segments) {

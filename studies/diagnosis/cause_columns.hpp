@@ -34,6 +34,9 @@ Columns stop_operators(const Frame& frame, const Eigen::ArrayXd& motion,
 /// count values from first to last, even in the logarithm.
 std::vector<double> geometric(double first, double last, int count);
 
+/// The terms of elements along a grid: name_1 at the first value, and so on.
+std::vector<Term> elements(const std::vector<double>& grid, const Term& each);
+
 /// A smooth signal a delay later, in every recording: linear between rows, held beyond the ends.
 Eigen::ArrayXd later(const Frame& frame, const Eigen::ArrayXd& signal, double delay);
 

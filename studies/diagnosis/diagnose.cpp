@@ -1,14 +1,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/explanation.hpp"
-#include "diagnosis/finding.hpp"
+#include "diagnosis/judged_once.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
+#include "diagnosis/undecided.hpp"
 #include "diagnosis/velocity_lag.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -28,29 +30,93 @@ double weighted_level(const Frame& frame, const EquationNoise& noise) {
   return std::sqrt(variance / rows);
 }
 
-Verdict verdict_of(const Selection& s, const Limits& limits) {
+// More than noise is left where the model's own error is larger than the noise, and no trifle.
+bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& limits) {
+  const double own =
+      std::sqrt(std::max(h.rmse_after * h.rmse_after - h.noise_floor * h.noise_floor, 0.0));
+  return h.over_noise() > limits.beyond_noise && own > limits.beyond_size * frame.torque_range;
+}
+
+Verdict verdict_of(const Frame& frame, const Selection& s, const Diagnosis& d,
+                   const Limits& limits) {
+  const bool left = s.remainder || is_beyond_noise(frame, d.holdout, limits) ||
+                    (d.cross_validated && is_beyond_noise(frame, *d.cross_validated, limits));
   if (s.accepted.empty()) {
-    const bool something = s.remainder || left_unnamed(s, limits) != nullptr;
+    const bool something = left || left_unnamed(s, limits) != nullptr;
     return something ? Verdict::unexplained : Verdict::adequate;
   }
-  return s.remainder ? Verdict::partly_explained : Verdict::explained;
+  return left ? Verdict::partly_explained : Verdict::explained;
 }
 
-void say_undecided(const Frame& frame, Diagnosis& d) {
+void say_one_loop(const Frame& frame, Diagnosis& d) {
   d.next_experiment = another_rate(frame);
-  d.says = "Cannot be decided with these data: ";
-  d.says += d.verdict == Verdict::adequate
-                ? "the baseline follows this one loop, but at one amplitude and one rate viscous "
-                  "damping and a memory without rate look the same."
-                : "this one loop differs from the baseline, but one amplitude and one rate do not "
-                  "tell one cause from another.";
-  d.notes.push_back(d.says);
+  std::string says = "Cannot be decided with these data: ";
+  says += d.verdict == Verdict::adequate
+              ? "the baseline follows this one loop, but at one amplitude and one rate viscous "
+                "damping and a memory without rate look the same."
+              : "this one loop differs from the baseline, but one amplitude and one rate do not "
+                "tell one cause from another.";
+  make_undecided(std::move(says), d);
 }
 
-Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgress& progress,
-                            unsigned threads) {
+void say_noise(double followed, Diagnosis& d) {
+  make_undecided(
+      fmt::format("Cannot be decided with these data: the torque is mostly noise, as the model "
+                  "follows {:.0f} % of its variance.",
+                  100.0 * std::max(followed, 0.0)),
+      d);
+}
+
+void say_implausible(std::vector<data::SanityFinding> findings, Diagnosis& d) {
+  make_undecided(
+      fmt::format("Cannot be decided: a channel looks mistaken. {}", findings.front().message()),
+      d);
+  d.mistaken.insert(d.mistaken.begin(), findings.begin(), findings.end());
+}
+
+// What these recordings cannot tell, whatever was found in them.
+void judge_decidable(const Frame& frame, const Selection& selection, const Limits& limits,
+                     Diagnosis& d) {
+  const bool unnamed = d.verdict == Verdict::adequate || d.verdict == Verdict::unexplained;
+  const double followed = share_followed(frame, selection);
+  if (auto findings = implausible(frame, selection, limits); !findings.empty()) {
+    say_implausible(std::move(findings), d);
+  } else if (one_loop(frame)) {
+    say_one_loop(frame, d);
+  } else if (unnamed && followed < limits.least_told) {
+    say_noise(followed, d);
+  }
+}
+
+void name_in_units(Diagnosis& d) {
+  const bool linear = find_unit(d.display.motion)->dimension == Dimension::length;
+  for (Cause& cause : d.causes) cause.unit = linear ? "N" : "Nm";
+  std::ranges::stable_sort(d.causes, std::ranges::greater{}, &Cause::size_fraction);
+}
+
+Result<void> judge_held_out(const RecordingSet& all, const std::vector<std::string>& holdout,
+                            const Finding& finding, Diagnosis& d) {
+  if (holdout.empty()) return {};
+  auto once = judged_once(all, holdout, finding, kMostRows);
+  if (!once) return tl::unexpected(once.error());
+  d.cross_validated = d.holdout;
+  d.holdout = std::move(once->proof);
+  d.series.insert(d.series.begin(), once->series.begin(), once->series.end());
+  return {};
+}
+
+Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& progress,
+                            unsigned threads, const std::vector<std::string>& holdout) {
   if (progress) progress(0.0, "smoothing the motions");
-  auto frame_of_set = make_frame(recordings, kMostRows);
+  auto mistaken = data::sanity_of(all);
+  if (data::stops_science(mistaken)) return mistaken_diagnosis(all, std::move(mistaken));
+  std::optional<RecordingSet> rest;
+  if (!holdout.empty()) {
+    auto kept = without(all, holdout);
+    if (!kept) return tl::unexpected(kept.error());
+    rest = std::move(*kept);
+  }
+  auto frame_of_set = make_frame(rest ? *rest : all, kMostRows);
   if (!frame_of_set) return tl::unexpected(frame_of_set.error());
   if (progress) progress(0.1, "fitting the baseline");
   Limits limits;
@@ -60,10 +126,11 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   const auto& [frame, selection, proof] = *finding;
   if (progress) progress(0.9, "comparing the candidates");
   Diagnosis d;
-  d.dataset = recordings.name;
-  d.sha256 = recordings.sha256;
-  d.display = recordings.display;
-  d.notes = recordings.notes;
+  d.dataset = all.name;
+  d.sha256 = all.sha256;
+  d.display = all.display;
+  d.mistaken = std::move(mistaken);
+  d.notes = all.notes;
   d.notes.insert(d.notes.end(), frame.notes.begin(), frame.notes.end());
   if (const auto lag = velocity_lag(frame)) d.notes.push_back(in_words(*lag));
   d.baseline_model = baseline_in_words(frame);
@@ -72,21 +139,24 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   const Equation shown = equation_to_prove(frame, selection);
   d.noise_std = weighted_level(frame, selection.final.noise[index_of(shown)]) *
                 (shown == Equation::motor ? frame.ratio : 1.0);
-  d.verdict = verdict_of(selection, limits);
+  d.holdout = proof.holdout;
+  d.series = spelled_series(frame, selection, proof);
+  const auto judged = judge_held_out(all, holdout, *finding, d);
+  if (!judged) return tl::unexpected(judged.error());
+  d.verdict = verdict_of(frame, selection, d, limits);
   auto specification = specify(frame, selection.final.fit.model);
   d.model = std::move(specification.model);
   d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
-  d.holdout = proof.holdout;
   d.causes = spelled_causes(frame, selection, proof);
   d.mismatch = spelled_mismatch(frame, selection, limits);
   d.confusable = spelled_confusable(frame, selection);
   d.tried = spelled_trials(selection, limits);
   spell_ripple(frame, selection, limits, d);
+  name_in_units(d);
   d.moved = spelled_moves(frame, selection);
-  d.series = spelled_series(frame, selection, proof);
   d.next_experiment = next_experiment(frame, selection);
   d.says = spelled_verdict(selection, limits, d);
-  if (one_loop(frame)) say_undecided(frame, d);
+  judge_decidable(frame, selection, limits, d);
   return d;
 }
 
@@ -101,15 +171,17 @@ std::string_view name_of(Verdict verdict) {
     case Verdict::partly_explained:
       return "partly_explained";
     case Verdict::unexplained:
+      return "unexplained";
+    case Verdict::undecided:
       break;
   }
-  return "unexplained";
+  return "undecided";
 }
 
 Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress,
-                           unsigned threads) {
+                           unsigned threads, const std::vector<std::string>& holdout) {
   const auto start = std::chrono::steady_clock::now();
-  auto result = diagnosed(recordings, progress, threads);
+  auto result = diagnosed(recordings, progress, threads, holdout);
   if (!result) return result;
   result->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress) progress(1.0, "done");

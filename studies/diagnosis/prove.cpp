@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 
 #include "diagnosis/folds.hpp"
+#include "diagnosis/held_out_error.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -14,8 +14,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr int kSteps = 8;
-constexpr int kResamples = 400;
-constexpr Index kBlocksOfRecording = 8;
 
 // The cause that does worst on recordings held out.
 std::optional<std::size_t> unconfirmed(const Proof& proof, double most) {
@@ -41,52 +39,6 @@ Result<ModelFit> refitted(const Frame& frame, const Findings& training) {
   const auto done = fit_all(frame, copy, kSteps);
   if (!done) return tl::unexpected(done.error());
   return copy.fit;
-}
-
-double rms_on(const ArrayXd& residual, const ArrayXd& rows) {
-  const double count = rows.sum();
-  return count > 0.0 ? std::sqrt((residual.square() * rows).sum() / count) : kNotComputed;
-}
-
-/// Sums of squares of both models by block of the held-out recordings.
-struct Blocks {
-  std::vector<double> before;
-  std::vector<double> after;
-};
-
-Blocks blocks_of(const Frame& frame, const ArrayXd& rows, const ArrayXd& before,
-                 const ArrayXd& after) {
-  Blocks blocks;
-  for (const Segment& s : frame.segments) {
-    const Index width = s.count / kBlocksOfRecording;
-    for (Index b = 0; width > 0 && b < kBlocksOfRecording; ++b) {
-      const auto part = Eigen::seqN(s.first + b * width, width);
-      if (rows(part).sum() == 0.0) continue;
-      blocks.before.push_back((before(part).square() * rows(part)).sum());
-      blocks.after.push_back((after(part).square() * rows(part)).sum());
-    }
-  }
-  return blocks;
-}
-
-void resample(const Blocks& blocks, HoldoutProof& proof) {
-  if (blocks.before.empty()) return;
-  std::mt19937_64 engine(2003);
-  std::uniform_int_distribution<std::size_t> pick(0, blocks.before.size() - 1);
-  std::vector<double> ratios;
-  for (int r = 0; r < kResamples; ++r) {
-    double before = 0.0;
-    double after = 0.0;
-    for (std::size_t k = 0; k < blocks.before.size(); ++k) {
-      const std::size_t i = pick(engine);
-      before += blocks.before[i];
-      after += blocks.after[i];
-    }
-    ratios.push_back(std::sqrt(after / before));
-  }
-  std::ranges::sort(ratios);
-  proof.ci95_lower = ratios[kResamples / 40];
-  proof.ci95_upper = ratios[kResamples - 1 - kResamples / 40];
 }
 
 /// Residuals of the models compared, every held-out row by the fit that did not see it; 0
@@ -177,17 +129,6 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
   }
 }
 
-double noise_floor(const Frame& frame, const EquationNoise& noise, const ArrayXd& held) {
-  double variance = 0.0;
-  double rows = 0.0;
-  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-    const double count = held.segment(frame.segments[i].first, frame.segments[i].count).sum();
-    variance += count * noise.level[i] * noise.level[i];
-    rows += count;
-  }
-  return rows > 0.0 ? std::sqrt(variance / rows) : kNotComputed;
-}
-
 // What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
 bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
                        std::size_t cause) {
@@ -255,10 +196,10 @@ Result<Proof> prove(const Frame& frame, const Selection& s) {
   h.rmse_before = rms_on(pool.base[e], held);
   h.rmse_after = rms_on(pool.final[e], held);
   h.ratio = h.rmse_after / h.rmse_before;
-  h.noise_floor = noise_floor(frame, s.final.noise[e], held);
+  h.noise_floor = noise_on(frame, s.final.noise[e].level, held);
   proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
-  resample(blocks_of(frame, held, pool.base[e], pool.final[e]), h);
+  resample_ratio(frame, held, pool.base[e], pool.final[e], h);
   prove_causes(frame, s, pool, held, proof);
   if (e == index_of(Equation::motor)) {
     for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,

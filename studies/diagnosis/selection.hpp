@@ -36,6 +36,12 @@ struct Limits {
   double held_out_of_more = 0.97;  ///< the same where something is left, which it may stand for
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in
                            ///< for something without a name
+  double beyond_noise = 1.4142;  ///< held-out error over noise: more, and the model's own error is
+                                 ///< larger than the noise
+  double beyond_size = 0.002;    ///< and its rms this share of the largest torque
+  double least_told = 0.5;       ///< share of the torque's variance that a model has to follow
+  double physics = 0.5;          ///< larger causes, shares of torque, are a mistake of units
+  double rescaled = 0.4;         ///< and so are gains that are off by more
   double ripple_share = 0.25;  ///< least share of the fast changes in steady strokes that is named
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has

@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 
 #include "diagnosis/baseline.hpp"
+#include "diagnosis/cause_spread.hpp"
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/folds.hpp"
 
@@ -44,23 +45,23 @@ double belief(const Accepted& accepted) {
   return 1.0 / (1.0 + others);
 }
 
-std::vector<CauseParameter> parameters_of(const Trial& trial, const Frame& frame,
-                                          const Eigen::VectorXd& coefficients) {
-  std::vector<CauseParameter> list;
-  const auto shapes =
-      trial.cause.form->shapes == nullptr ? std::vector<Shape>{} : trial.cause.form->shapes(frame);
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    list.push_back({std::string(shapes[i].name), trial.cause.shape[i], kNotComputed,
-                    std::string(shapes[i].unit)});
-  }
-  const bool alone = coefficients.size() == 1;
-  for (Index k = 0; k < coefficients.size(); ++k) {
-    CauseParameter p{fmt::format("a{}", k + 1), coefficients[k], kNotComputed, ""};
-    // One linear parameter: its gain is the square of its value over its standard deviation.
-    if (alone && trial.gain > 0.0) p.std = std::abs(p.value) / std::sqrt(trial.gain);
-    list.push_back(std::move(p));
-  }
-  return list;
+/// Which torque a size is a fraction of, and how large that is.
+struct SizeOf {
+  double fraction = 0.0;
+  double size = 0.0;
+  std::string_view of;
+};
+
+// The largest contribution of a cause of the final model over the largest torque of the first
+// equation that it acts on.
+SizeOf size_of(const Frame& frame, const Findings& final, std::size_t index) {
+  const Equation equation = first_equation(frame, *final.fit.model.causes[index].form);
+  const ArrayXd part =
+      contribution(frame, final.fit.model, final.reference, index, equation) * frame.usable;
+  const double size = part.abs().maxCoeff();
+  return {size / frame.largest_torque(equation), size,
+          equation == Equation::motor ? "the largest motor torque"
+                                      : "the largest torque across the transmission"};
 }
 
 // Weighted change of the prediction by a trial, equation under equation.
@@ -109,13 +110,23 @@ void add_round(const Accepted& a, int round, const Limits& limits,
   }
 }
 
+// "falls to 46 % of before", and what that means.
 std::string proof_in_words(const HoldoutProof& proof, std::size_t causes) {
   const char* them = causes == 1 ? "it" : "them";
   if (!std::isfinite(proof.ratio)) {
     return fmt::format("No recording could be held out to prove {}", them);
   }
-  return fmt::format("With {} the error on held-out recordings falls to {:.0f} % of before", them,
-                     100.0 * proof.ratio);
+  if (proof.nested) {
+    return fmt::format(
+        "With {} the error on recordings taken away before the search falls to {:.0f} % of before, "
+        "{:.3g} times the noise",
+        them, 100.0 * proof.ratio, proof.over_noise());
+  }
+  return fmt::format(
+      "With {} the cross-validated error (selection not nested) falls to {:.0f} % of before, "
+      "{:.3g} "
+      "times the noise",
+      them, 100.0 * proof.ratio, proof.over_noise());
 }
 
 std::string why_immaterial(const Trial& trial, const Limits& limits) {
@@ -146,8 +157,10 @@ std::pair<Index, Index> judged(const Frame& frame, const Segment& segment) {
 }  // namespace
 
 double p_value(double chi_square, int parameters) {
-  constexpr double kLargest = 1200.0;  // beyond it the probability is no number above 0
-  return boost::math::gamma_q(0.5 * parameters, 0.5 * std::min(chi_square, kLargest));
+  constexpr double kLargest = 1200.0;
+  constexpr double kSmallest = 1e-12;  // nobody knows a noise's tails further out
+  return std::max(boost::math::gamma_q(0.5 * parameters, 0.5 * std::min(chi_square, kLargest)),
+                  kSmallest);
 }
 
 std::string baseline_in_words(const Frame& frame) {
@@ -161,15 +174,20 @@ std::string baseline_in_words(const Frame& frame) {
 
 std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const Proof& proof) {
   std::vector<Cause> list;
+  const CauseSpread spread(frame, s.final);
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const Accepted& a = s.accepted[i];
+    const std::size_t at = s.immaterial.size() + i;
     Cause cause;
     cause.effect = a.trial.cause.row->id;
     cause.probability = belief(a);
-    cause.size_fraction = a.trial.size;
+    const SizeOf size = size_of(frame, s.final, at);
+    cause.size_fraction = size.fraction;
+    cause.size = size.size;
+    cause.unit = "Nm";
+    cause.size_of = size.of;
     cause.equation = a.trial.cause.form->equation;
-    cause.parameters =
-        parameters_of(a.trial, frame, s.final.fit.model.coefficients[s.immaterial.size() + i]);
+    cause.parameters = spread.parameters(at);
     cause.alternatives = alternatives_of(a, s);
     cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;
@@ -248,15 +266,12 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s)
   return list;
 }
 
-std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& s,
-                                            const Proof& proof) {
-  const Equation equation = equation_to_prove(frame, s);
-  const ArrayXd out = held_out(frame);
+std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation, const ArrayXd& before,
+                                       const ArrayXd& after) {
   std::vector<DiagnosedSeries> list;
   for (const Segment& segment : frame.segments) {
     DiagnosedSeries series;
     series.recording = segment.id;
-    series.split = out[segment.first] > 0.0 ? Split::holdout : Split::train;
     series.equation = name_of(equation);
     const Index stride = std::max<Index>(1, segment.count / kSeriesPoints);
     const ArrayXd& measured = equation == Equation::motor ? frame.motor_torque : frame.torque;
@@ -266,11 +281,21 @@ std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection&
       series.motion.push_back(frame.torsion[r]);
       series.rate.push_back(frame.torsion_rate[r]);
       series.measured.push_back(measured[r]);
-      series.before.push_back(proof.before[r]);
-      series.after.push_back(proof.after[r]);
+      series.before.push_back(before[r]);
+      series.after.push_back(after[r]);
       if (frame.rig != Rig::locked) series.motor_angle.push_back(frame.motor_angle[r]);
     }
     list.push_back(std::move(series));
+  }
+  return list;
+}
+
+std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& s,
+                                            const Proof& proof) {
+  const ArrayXd out = held_out(frame);
+  auto list = series_of(frame, equation_to_prove(frame, s), proof.before, proof.after);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    list[i].split = out[frame.segments[i].first] > 0.0 ? Split::holdout : Split::train;
   }
   return list;
 }
@@ -293,12 +318,19 @@ std::string spelled_verdict(const Selection& s, const Limits& limits, const Diag
       return fmt::format("Left out: {}. {}.", named, proof_in_words(d.holdout, d.causes.size()));
     case Verdict::partly_explained:
       return fmt::format(
-          "Left out: {}. {}, but something that no catalogued effect explains is left.", named,
+          "Left out: {}. {}, and something that no catalogued effect explains is left.", named,
           proof_in_words(d.holdout, d.causes.size()));
     case Verdict::unexplained:
+    case Verdict::undecided:
       break;
   }
-  if (!s.remainder && left_unnamed(s, limits) != nullptr) {
+  if (!s.remainder && left_unnamed(s, limits) == nullptr) {
+    return fmt::format(
+        "Something was left out that no catalogued effect explains: the error on held-out "
+        "recordings is {:.3g} times the noise.",
+        d.holdout.over_noise());
+  }
+  if (!s.remainder) {
     return fmt::format("Something was left out, too little for a name; {}.",
                        d.mismatch.front().says);
   }

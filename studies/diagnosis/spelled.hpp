@@ -5,7 +5,7 @@
 
 namespace flexspline::studies {
 
-/// Probability that noise alone gains that much by so many parameters.
+/// Probability that noise alone gains that much by so many parameters, 1e-12 at least.
 double p_value(double chi_square, int parameters);
 
 /// The parts of a diagnosis that a person reads, from the numbers of the search.
@@ -16,16 +16,19 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& selection
 /// it is largest.
 std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& selection,
                                        const Limits& limits);
-/// |cosine| between what the causes of the first round change in the prediction.
 /// A ripple over the motor's angle that no cause took: its coordinate, and a note. Where the
 /// catalogue has a cause of its order for joints that travel, and a recording confirms the order
 /// that the others tell, that cause is named, however small against the torque: of the fast
 /// changes in steady strokes it has to be a quarter.
 void spell_ripple(const Frame& frame, const Selection& selection, const Limits& limits,
                   Diagnosis& diagnosis);
+/// |cosine| between what the causes of the first round change in the prediction.
 std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& selection);
 std::vector<TriedCandidate> spelled_trials(const Selection& selection, const Limits& limits);
 std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& selection);
+/// Recordings as measured and as predicted by two models, decimated.
+std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation,
+                                       const Eigen::ArrayXd& before, const Eigen::ArrayXd& after);
 /// Recordings as measured and as predicted, those held out by fits that did not see them.
 std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& selection,
                                             const Proof& proof);

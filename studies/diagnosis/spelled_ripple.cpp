@@ -57,8 +57,16 @@ Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleProof& proo
   cause.probability = 1.0 / static_cast<double>(1 + name.others.size());
   cause.size_fraction = ripple.amplitude / frame.torque_range;
   cause.equation = name.form->equation;
-  cause.parameters = {{"order", name.order, kNotComputed, "1"},
-                      {"amplitude", ripple.amplitude, kNotComputed, "Nm"}};
+  cause.size = ripple.amplitude;
+  cause.unit = "Nm";
+  cause.size_of = "the largest torque across the transmission";
+  CauseParameter order{"order", name.order, kNotComputed, "1"};
+  order.meaning = "of a turn of the motor";
+  order.no_interval = "a whole number of the catalogue";
+  CauseParameter amplitude{"amplitude", ripple.amplitude, kNotComputed, "Nm"};
+  amplitude.meaning = "the largest of all recordings and directions";
+  amplitude.no_interval = "each recording and direction has its own";
+  cause.parameters = {std::move(order), std::move(amplitude)};
   cause.alternatives = name.others;
   constexpr int kEach = 4;  // sine and cosine, both ways
   cause.evidence.score_p_value =

@@ -51,7 +51,8 @@ Json mismatch_json(const Mismatch& mismatch) {
 // numbers are metres and newtons.
 std::pair<double, std::string> shown_unit(const Diagnosis& diagnosis, std::string unit) {
   if (!is_linear(diagnosis)) return in_degrees(unit);
-  for (const auto& [angular, linear] : {std::pair{"Nm", "N"}, std::pair{"rad", "m"}}) {
+  for (const auto& [angular, linear] :
+       {std::pair{"Nm", "N"}, std::pair{"rad", "m"}, std::pair{"kg m2", "kg"}}) {
     const auto at = unit.find(angular);
     if (at != std::string::npos) unit.replace(at, std::string_view(angular).size(), linear);
   }
@@ -60,10 +61,18 @@ std::pair<double, std::string> shown_unit(const Diagnosis& diagnosis, std::strin
 
 Json parameter_json(const Diagnosis& diagnosis, const CauseParameter& parameter) {
   const auto [factor, unit] = shown_unit(diagnosis, parameter.unit);
-  return {{"name", parameter.name},
-          {"value", number(factor * parameter.value)},
-          {"std", number(factor * parameter.std)},
-          {"unit", unit}};
+  const Json interval = std::isfinite(parameter.ci95_lower)
+                            ? Json::array({number(factor * parameter.ci95_lower),
+                                           number(factor * parameter.ci95_upper)})
+                            : Json(nullptr);
+  Json json = {{"name", parameter.name},
+               {"value", number(factor * parameter.value)},
+               {"std", number(factor * parameter.std)},
+               {"ci95", interval},
+               {"unit", unit},
+               {"meaning", parameter.meaning}};
+  if (interval.is_null()) json["no_interval"] = parameter.no_interval;
+  return json;
 }
 
 Json evidence_json(const CauseEvidence& evidence) {
@@ -82,6 +91,9 @@ Json cause_json(const Diagnosis& diagnosis, const Cause& cause) {
   return {{"effect", cause.effect},
           {"probability", number(cause.probability)},
           {"size_fraction", number(cause.size_fraction)},
+          {"size", number(cause.size)},
+          {"unit", cause.unit},
+          {"size_of", cause.size_of},
           {"equation", cause.equation},
           {"parameters", std::move(parameters)},
           {"alternatives", cause.alternatives},
@@ -118,7 +130,27 @@ Json holdout_json(const HoldoutProof& proof) {
           {"rmse_after_nm", number(proof.rmse_after)},
           {"ratio", number(proof.ratio)},
           {"ci95", Json::array({number(proof.ci95_lower), number(proof.ci95_upper)})},
-          {"noise_floor_nm", number(proof.noise_floor)}};
+          {"noise_floor_nm", number(proof.noise_floor)},
+          {"over_noise", number(proof.over_noise())},
+          {"nested", proof.nested},
+          {"recordings", proof.recordings}};
+}
+
+Json note_json(const std::string& code, const std::string& says) {
+  return {{"code", code}, {"says", says}};
+}
+
+Json notes_json(const Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const data::SanityFinding& one : diagnosis.mistaken) {
+    Json note = note_json(one.code, one.message());
+    note["check"] = one.check;
+    note["severity"] = data::name_of(one.severity);
+    note["recording"] = one.recording.empty() ? Json(nullptr) : Json(one.recording);
+    list.push_back(std::move(note));
+  }
+  for (const std::string& note : diagnosis.notes) list.push_back(note_json("remark", note));
+  return list;
 }
 
 /// An amplitude of a linear specimen is no angle: amplitude_deg is null there.
@@ -160,22 +192,25 @@ Json list_of(const std::vector<Row>& rows, Write write) {
 }  // namespace
 
 Json to_json(const Diagnosis& diagnosis) {
-  Json json = {{"schema", kDiagnosisSchema},
-               {"dataset", {{"name", diagnosis.dataset}, {"sha256", diagnosis.sha256}}},
-               {"baseline",
-                {{"model", diagnosis.baseline_model},
-                 {"rmse_nm",
-                  {{"train", number(diagnosis.baseline_rmse_train)},
-                   {"holdout", number(diagnosis.baseline_rmse_holdout)}}},
-                 {"noise_std_nm", number(diagnosis.noise_std)}}},
-               {"verdict", name_of(diagnosis.verdict)},
-               {"says", diagnosis.says},
-               {"mismatch", list_of(diagnosis.mismatch, mismatch_json)},
-               {"causes", list_of(diagnosis.causes,
-                                  [&](const Cause& c) { return cause_json(diagnosis, c); })},
-               {"confusable", list_of(diagnosis.confusable, confusable_json)},
-               {"holdout", holdout_json(diagnosis.holdout)},
-               {"next_experiment", nullptr}};
+  Json json = {
+      {"schema", kDiagnosisSchema},
+      {"dataset", {{"name", diagnosis.dataset}, {"sha256", diagnosis.sha256}}},
+      {"baseline",
+       {{"model", diagnosis.baseline_model},
+        {"rmse_nm",
+         {{"train", number(diagnosis.baseline_rmse_train)},
+          {"holdout", number(diagnosis.baseline_rmse_holdout)}}},
+        {"noise_std_nm", number(diagnosis.noise_std)}}},
+      {"verdict", name_of(diagnosis.verdict)},
+      {"says", diagnosis.says},
+      {"mismatch", list_of(diagnosis.mismatch, mismatch_json)},
+      {"causes",
+       list_of(diagnosis.causes, [&](const Cause& c) { return cause_json(diagnosis, c); })},
+      {"confusable", list_of(diagnosis.confusable, confusable_json)},
+      {"holdout", holdout_json(diagnosis.holdout)},
+      {"cross_validated",
+       diagnosis.cross_validated ? holdout_json(*diagnosis.cross_validated) : Json(nullptr)},
+      {"next_experiment", nullptr}};
   if (diagnosis.next_experiment) {
     json["next_experiment"] = experiment_json(*diagnosis.next_experiment, diagnosis);
   }
@@ -186,7 +221,7 @@ Json to_json(const Diagnosis& diagnosis) {
   json["series"] = list_of(diagnosis.series,
                            [&](const DiagnosedSeries& one) { return series_json(one, diagnosis); });
   json["model"] = diagnosis.model ? data::to_json(*diagnosis.model) : Json(nullptr);
-  json["notes"] = diagnosis.notes;
+  json["notes"] = notes_json(diagnosis);
   json["seconds"] = number(diagnosis.seconds);
   return json;
 }

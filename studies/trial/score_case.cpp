@@ -60,7 +60,9 @@ std::string counted_name(const Cause& cause, const Names& right) {
 
 std::string first_name(const ConcealedAnswer& answer, const Diagnosis& diagnosis,
                        const std::vector<std::string>& got, const Names& right) {
-  if (got.empty()) return diagnosis.verdict == Verdict::adequate ? "adequate" : "no name";
+  const bool open =
+      diagnosis.verdict == Verdict::adequate || diagnosis.verdict == Verdict::undecided;
+  if (got.empty()) return open ? std::string(name_of(diagnosis.verdict)) : "no name";
   const bool twin = right.contains(got.front()) && !truth_of(answer).contains(got.front());
   return twin ? answer.effects.front().id : got.front();
 }
@@ -208,8 +210,9 @@ CaseScore score_case(const ConcealedAnswer& answer, const Diagnosis* diagnosis) 
   static_cast<NameScore&>(score) = score_names(answer, score.kind, diagnosis->verdict, got);
   score.with_alternatives = score_names(answer, score.kind, diagnosis->verdict, counted);
   score.named = static_cast<int>(got.size());
-  score.detected = diagnosis->verdict != Verdict::adequate;
-  score.null_right = score.kind == CaseKind::null && !score.detected && got.empty();
+  const bool adequate = diagnosis->verdict == Verdict::adequate;
+  score.detected = !adequate && diagnosis->verdict != Verdict::undecided;
+  score.null_right = score.kind == CaseKind::null && adequate && got.empty();
   score.unknown_right = (score.kind == CaseKind::unknown || score.kind == CaseKind::incident) &&
                         got.empty() && is_left(diagnosis->verdict);
   if (answer.generator == "splice") score.names.clear();  // nobody knows which are right

@@ -49,14 +49,14 @@ write("diagnosis_fixture/diagnosis.json", {
     { recording: kHostile, interval_s: [null, null], coordinate: "motor_angle", equation: "torsion", share_of_excess: null, says: kHostile },
   ],
   causes: [
-    { effect: "presliding_hysteresis", probability: 0.98, size_fraction: 0.034, equation: "tau += F sum_i w_i z_i,  dz_i = dphi - z_i |dphi| / s_i",
-      parameters: [{ name: "breakaway", value: 0.11, std: 0.004, unit: "deg" }, { name: "force", value: 1.08, std: 0.02, unit: "Nm" }],
-      alternatives: ["viscoelastic_creep", "backlash"], evidence: { score_p_value: 0.0002, holdout_rmse_ratio: 0.46, delta_bic: -812, ablation_ratio: 2.17, placebo_ratio: 0.99 } },
-    { effect: kHostile, probability: null, size_fraction: null, equation: kHostile, parameters: [{ name: kHostile, value: null, std: null, unit: kHostile }],
+    { effect: "presliding_hysteresis", probability: 0.98, size_fraction: 0.034, size: 1.31, unit: "Nm", size_of: "the largest torque across the transmission", equation: "tau += F sum_i w_i z_i,  dz_i = dphi - z_i |dphi| / s_i",
+      parameters: [{ name: "breakaway", value: 0.11, std: 0.004, ci95: [0.1022, 0.1178], unit: "deg", meaning: "way after which it slips" }, { name: "force", value: 1.08, std: null, ci95: null, unit: "Nm", meaning: "at which it slips", no_interval: "of a fixed grid, not fitted" }],
+      alternatives: ["viscoelastic_creep", "backlash"], evidence: { score_p_value: 1e-12, holdout_rmse_ratio: 0.46, delta_bic: -812, ablation_ratio: 2.17, placebo_ratio: 0.99 } },
+    { effect: kHostile, probability: null, size_fraction: null, equation: kHostile, size: null, unit: kHostile, size_of: kHostile, parameters: [{ name: kHostile, value: null, std: null, ci95: null, unit: kHostile, meaning: kHostile, no_interval: kHostile }],
       alternatives: [], evidence: { score_p_value: null, holdout_rmse_ratio: null, delta_bic: null } },
   ],
   confusable: [{ effect: "presliding_hysteresis", with: "viscoelastic_creep", similarity: 0.71, why: "both lag behind the motion at one frequency" }, { effect: kHostile, with: kHostile, similarity: null, why: kHostile }],
-  holdout: { rmse_before_nm: 0.33, rmse_after_nm: 0.15, ratio: 0.46, ci95: [0.43, 0.49], noise_floor_nm: 0.14 },
+  holdout: { rmse_before_nm: 0.33, rmse_after_nm: 0.15, ratio: 0.46, ci95: [0.43, 0.49], noise_floor_nm: 0.14, over_noise: 1.07, nested: false, recordings: [] },
   next_experiment: { separates: ["presliding_hysteresis", "viscoelastic_creep"], excitation: "sine", amplitude_deg: 0.2, frequency_hz: 0.5, amplitude: 0.2, separation_sigma: 7.2,
     says: "Record a sine of 0.2 deg at 0.5 Hz: presliding does not care for the frequency, a relaxing branch does." },
   units: { motion: "deg", rate: "deg/s", effort: "Nm", rmse: "Nm" },
@@ -68,7 +68,7 @@ write("diagnosis_fixture/diagnosis.json", {
   moved: [{ name: "b1", before: 65.6, after: 22.1, std: 1.3, unit: "Nm s/deg" }, { name: "a1", before: 14.133, after: 14.02, std: 0.1, unit: "Nm/deg" }, { name: kHostile, before: null, after: null, std: null, unit: "" }],
   series: kRecordings.map((one) => seriesOf(...one)),
   model: { effects: [{ effect: "presliding_hysteresis", parameters: [0.11, 1.08] }] },
-  notes: ["sine-fast: the first 0.3 s are marked invalid and were not used", kHostile],
+  notes: [{ code: "remark", says: "sine-fast: the first 0.3 s are marked invalid and were not used" }, { code: "check_channel", says: kHostile }],
   seconds: 12.4,
 });
 

@@ -26,9 +26,19 @@ Diagnosis example() {
   diagnosis.verdict = Verdict::explained;
   diagnosis.says = "Presliding hysteresis was left out.";
   diagnosis.mismatch = {{"sine", 12.1, 14.0, "reversal_memory", "torsion", 0.41, "it lags"}};
-  Cause cause{"presliding_hysteresis", 0.98, 0.034, "z' = ...", {}, {"viscoelastic_creep"}, {}};
+  Cause cause;
+  cause.effect = "presliding_hysteresis";
+  cause.probability = 0.98;
+  cause.size_fraction = 0.034, cause.size = 1.31, cause.unit = "Nm";
+  cause.size_of = "the largest torque across the transmission";
+  cause.equation = "z' = ...";
+  cause.alternatives = {"viscoelastic_creep"};
   cause.parameters = {{"breakaway", 0.11 * kDegree, 0.004 * kDegree, "rad"},
                       {"stiffness", 800.0, 4.0, "Nm/rad"}};
+  cause.parameters[0].ci95_lower = 0.102 * kDegree,
+  cause.parameters[0].ci95_upper = 0.118 * kDegree;
+  cause.parameters[0].meaning = "way after which it slips";
+  cause.parameters[1].no_interval = "of a fixed grid, not fitted";
   cause.evidence = {1e-9, 0.46, -812.0, 2.2, 0.99};
   diagnosis.causes = {cause};
   diagnosis.confusable = {{"presliding_hysteresis", "viscoelastic_creep", 0.71, "both lag"}};
@@ -47,6 +57,8 @@ Diagnosis example() {
                        {1.1, 2.1},
                        {1.0, kNotComputed}}};
   diagnosis.notes = {"one recording has no valid sample"};
+  diagnosis.mistaken = {{"check_units", "load_inertia", data::Severity::warning, "sine",
+                         "torque over acceleration is 57.3 times the inertia", "check the units"}};
   diagnosis.seconds = 3.5;
   return diagnosis;
 }
@@ -73,9 +85,11 @@ TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
   EXPECT_EQ(keys_of(json["baseline"]["rmse_nm"]), (std::set<std::string>{"train", "holdout"}));
   expect_keys(json["mismatch"][0],
               {"recording", "interval_s", "coordinate", "share_of_excess", "says"});
-  expect_keys(json["causes"][0], {"effect", "probability", "size_fraction", "equation",
-                                  "parameters", "alternatives", "evidence"});
-  expect_keys(json["causes"][0]["parameters"][0], {"name", "value", "std", "unit"});
+  expect_keys(json["causes"][0], {"effect", "probability", "size_fraction", "size", "unit",
+                                  "size_of", "equation", "parameters", "alternatives", "evidence"});
+  expect_keys(json["causes"][0]["parameters"][0],
+              {"name", "value", "std", "ci95", "unit", "meaning"});
+  expect_keys(json["holdout"], {"nested", "recordings", "over_noise"});
   expect_keys(json["causes"][0]["evidence"], {"score_p_value", "holdout_rmse_ratio", "delta_bic"});
   expect_keys(json["confusable"][0], {"effect", "similarity", "why"});
   expect_keys(json["holdout"],
@@ -97,6 +111,24 @@ TEST(DiagnosisJson, ShowsAnglesInDegreesAndTorqueInNewtonMetres) {
   EXPECT_NEAR(json["series"][0]["motion"][1].get<double>(), 2.0, 1e-14);
   EXPECT_NEAR(json["series"][0]["rate"][1].get<double>(), 1.0, 1e-14);
   EXPECT_EQ(json["holdout"]["rmse_before_nm"], 0.33);
+}
+
+TEST(DiagnosisJson, AParameterHasAnIntervalOrSaysWhyNot) {
+  const ordered_json parameters = to_json(example())["causes"][0]["parameters"];
+  EXPECT_NEAR(parameters[0]["ci95"][0].get<double>(), 0.102, 1e-12);
+  EXPECT_FALSE(parameters[0].contains("no_interval"));
+  EXPECT_TRUE(parameters[1]["ci95"].is_null());
+  EXPECT_EQ(parameters[1]["no_interval"], "of a fixed grid, not fitted");
+}
+
+TEST(DiagnosisJson, NotesHaveACode) {
+  const ordered_json notes = to_json(example())["notes"];
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0]["code"], "check_units");
+  EXPECT_EQ(notes[0]["recording"], "sine");
+  EXPECT_NE(notes[0]["says"].get<std::string>().find("57.3"), std::string::npos);
+  EXPECT_EQ(notes[1]["code"], "remark");
+  EXPECT_EQ(notes[1]["says"], "one recording has no valid sample");
 }
 
 TEST(DiagnosisJson, KeepsTheKeysOfALinearSpecimenAndSaysItsUnits) {

@@ -28,6 +28,15 @@ TEST(ScoreOfANull, IsRightWhenAdequateAndNothingIsNamed) {
   EXPECT_FALSE(score(kNull, diagnosis_with(adequate, {cause("backlash")})).null_right);
 }
 
+TEST(ScoreOfAnyCase, UndecidedIsNeitherRightNorAName) {
+  for (const ConcealedAnswer* answer : {&kNull, &kPlay, &kUnknown}) {
+    const CaseScore open = score(*answer, diagnosis_with(undecided, {}));
+    EXPECT_FALSE(open.null_right || open.first_right || open.unknown_right || open.detected);
+    EXPECT_EQ(open.first_name, "undecided");
+    EXPECT_EQ(open.false_names, 0);
+  }
+}
+
 TEST(ScoreOfANull, CountsEveryNameAsFalse) {
   const auto named = score(kNull, diagnosis_with(explained, {cause("backlash"), cause("x")}));
   EXPECT_EQ(named.named, 2);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@ namespace {
 using Series = std::vector<double>;
 
 constexpr std::size_t kLeast = 32;      // samples in a row that no two measurements share
+constexpr std::size_t kMost = 50000;    // samples compared of each
 constexpr std::size_t kDifferent = 12;  // values among them
 
 /// The channel that noise makes the most different from itself.
@@ -26,13 +28,19 @@ const Series* telling(const ObservedSet& all, const Recording& recording) {
   return best;
 }
 
+/// As much of a series as is compared.
+std::span<const double> compared(const Series& values) {
+  return std::span(values).first(std::min(values.size(), kMost));
+}
+
 /// Samples around i of b that are those around k of a.
-std::size_t shared_around(const Series& a, std::size_t k, const Series& b, std::size_t i) {
+std::size_t shared_around(std::span<const double> a, std::size_t k, std::span<const double> b,
+                          std::size_t i) {
   std::size_t back = 0;
   while (back < k && back < i && a[k - back - 1] == b[i - back - 1]) ++back;
   std::size_t on = 0;
   while (k + on < a.size() && i + on < b.size() && a[k + on] == b[i + on]) ++on;
-  const auto part = std::span(b).subspan(i - back, back + on);
+  const auto part = b.subspan(i - back, back + on);
   Series values(part.begin(), part.end());
   std::ranges::sort(values);
   const auto rest = std::ranges::unique(values);
@@ -40,7 +48,7 @@ std::size_t shared_around(const Series& a, std::size_t k, const Series& b, std::
 }
 
 /// The longest stretch that two series share, as probes along the second tell.
-std::size_t shared(const Series& a, const Series& b) {
+std::size_t shared(std::span<const double> a, std::span<const double> b) {
   std::multimap<double, std::size_t> places;
   for (std::size_t k = 0; k < a.size(); ++k) places.emplace(a[k], k);
   std::size_t most = 0;
@@ -62,7 +70,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
       const Series* a = telling(all, recordings[k]);
       const Series* b = telling(all, recordings[i]);
       if (a == nullptr || b == nullptr) continue;
-      const std::size_t same = shared(*a, *b);
+      const std::size_t same = shared(compared(*a), compared(*b));
       if (same < kLeast) continue;
       list.push_back(
           {"check_channel", "", Severity::error, recordings[i].id,

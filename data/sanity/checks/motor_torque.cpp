@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,18 +12,31 @@ namespace {
 using Eigen::ArrayXd;
 
 constexpr double kMostOff = 1.8;
+constexpr double kLoaded =
+    0.3;  // of the largest range of torque: below it noise flattens the slope
 constexpr double kClear = 20.0;  // standard errors, of white noise
 
-/// Slope of the motor torque over tau/N beside inertia and frictions: 1, but for the losses.
+/// Slope of the motor torque over tau/N beside inertia and frictions: 1, but for the losses. The
+/// inertia is free only where it is not stated: a load's is much like it.
 std::vector<Factor> slopes(const ObservedSet& all) {
   const double ratio = all.constant("gear_ratio");
+  const double inertia = all.constant("motor_inertia_kgm2");
   std::vector<Factor> list;
+  double widest = 0.0;
+  for (const Observed& o : all.recordings) widest = std::max(widest, range_of(o.effort));
   for (const Observed& o : all.recordings) {
+    if (range_of(o.effort) < kLoaded * widest) continue;
     if (o.effort.size() == 0 || o.motor_angle.size() == 0) continue;
     if (o.drive.size() == 0 || o.recording->find(Quantity::motor_torque) == nullptr) continue;
-    const auto fit = regression({o.effort / ratio, o.motor_acceleration, o.motor_speed,
-                                 smooth_sign(o.motor_speed), ArrayXd::Ones(o.time.size())},
-                                o.drive, o.usable);
+    std::vector<ArrayXd> columns = {o.effort / ratio, o.motor_speed, smooth_sign(o.motor_speed),
+                                    ArrayXd::Ones(o.time.size())};
+    ArrayXd torque = o.drive;
+    if (inertia > 0.0) {
+      torque -= inertia * o.motor_acceleration;
+    } else {
+      columns.push_back(o.motor_acceleration);
+    }
+    const auto fit = regression(columns, torque, o.usable);
     if (std::abs(fit.coefficient[0]) < kClear * fit.error[0]) continue;
     list.push_back({o.recording->id, fit.coefficient[0]});
   }

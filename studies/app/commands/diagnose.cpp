@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -7,6 +6,7 @@
 
 #include "command.hpp"
 #include "diagnosis_artefact.hpp"
+#include "diagnosis_summary.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
@@ -52,42 +52,13 @@ Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
   return reports::write_report(folder);
 }
 
-std::string number(double value, const char* unit = "") {
-  return std::isfinite(value) ? fmt::format("{:.3g}{}", value, unit) : std::string("-");
-}
-
-std::string cause_line(const studies::Cause& cause) {
-  std::string line = fmt::format(
-      "\n  {:<28} {:>7} {:>12} {:>10}  {}", cause.effect, number(100.0 * cause.size_fraction, " %"),
-      number(cause.probability), number(cause.evidence.holdout_rmse_ratio), cause.equation);
-  if (!cause.alternatives.empty()) {
-    line += fmt::format("\n    on these recordings it could as well be {}",
-                        fmt::join(cause.alternatives, " or "));
-  }
-  return line;
-}
-
-std::string summary_of(const Diagnosis& diagnosis) {
-  std::string text = fmt::format("{}: {}", name_of(diagnosis.verdict), diagnosis.says);
-  if (!diagnosis.causes.empty()) {
-    text += fmt::format("\n  {:<28} {:>7} {:>12} {:>10}  {}", "left out", "size", "probability",
-                        "hold-out", "equation");
-  }
-  for (const studies::Cause& cause : diagnosis.causes) text += cause_line(cause);
-  for (const studies::Mismatch& mismatch : diagnosis.mismatch) {
-    text += fmt::format("\n  it differs in {} ({}): {}", mismatch.coordinate, mismatch.recording,
-                        mismatch.says);
-  }
-  if (diagnosis.next_experiment) text += "\n  next: " + diagnosis.next_experiment->says;
-  return text;
-}
-
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto recordings = data::load_dataset(arguments.text("dataset"));
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
   catch_stop_signals();
-  const auto diagnosis = studies::diagnose(*recordings, progress_on(console));
+  const auto diagnosis =
+      studies::diagnose(*recordings, progress_on(console), 0, arguments.texts("holdout"));
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
   console.say(
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
@@ -112,7 +83,12 @@ CommandRow describe_diagnose() {
                         {.name = "--out",
                          .meaning = "folder for diagnosis.json, model.toml and the report",
                          .value = "DIR",
-                         .required = true}},
+                         .required = true},
+                        {.name = "--holdout",
+                         .meaning = "recording that is taken away before the search and on which "
+                                    "the result is judged once",
+                         .value = "ID",
+                         .repeats = true}},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};
 }

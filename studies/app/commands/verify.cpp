@@ -8,6 +8,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/reports/report.hpp"
+#include "flexspline/studies/diagnosis_json.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "flexspline/studies/verify.hpp"
 #include "run_folder.hpp"
@@ -70,6 +71,14 @@ Result<void> run_trial_again(const Arguments& arguments, const studies::RunSetti
   return unless_interrupted(summary->run.interrupted);
 }
 
+/// The recordings that a diagnosis took away before its search.
+Result<std::vector<std::string>> held_out_by(const fs::path& folder) {
+  const auto artefact = data::read_artefact(folder / "diagnosis.json", studies::kDiagnosisSchema);
+  if (!artefact) return tl::unexpected(artefact.error());
+  return artefact->value(nlohmann::ordered_json::json_pointer("/holdout/recordings"),
+                         std::vector<std::string>{});
+}
+
 Result<void> diagnose_again(const Arguments& arguments, const fs::path& again) {
   if (!arguments.has("dataset")) {
     return failure(ErrorCode::usage, "a diagnosis does not say where its recordings lie",
@@ -77,7 +86,9 @@ Result<void> diagnose_again(const Arguments& arguments, const fs::path& again) {
   }
   const auto recordings = data::load_dataset(arguments.text("dataset"));
   if (!recordings) return tl::unexpected(recordings.error());
-  const auto diagnosis = studies::diagnose(*recordings);
+  const auto holdout = held_out_by(arguments.text("dir"));
+  if (!holdout) return tl::unexpected(holdout.error());
+  const auto diagnosis = studies::diagnose(*recordings, {}, 0, *holdout);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   return data::write_artefact(again / "diagnosis.json", diagnosis_artefact(*diagnosis));
 }

@@ -16,7 +16,8 @@ std::vector<Shape> gap(const Frame& f) {
            .unit = "rad",
            .lower = 0.01 * f.torsion_range,
            .upper = 0.7 * f.torsion_range,
-           .grid = 8}};
+           .grid = 8,
+           .meaning = "half of the gap"}};
 }
 
 ArrayXd wound(const ArrayXd& phi, double b) {
@@ -42,11 +43,13 @@ std::vector<Shape> lost_motion(const Frame& f) {
            .unit = "rad",
            .lower = 0.005 * f.torsion_range,
            .upper = 0.7 * f.torsion_range,
-           .grid = 6},
+           .grid = 6,
+           .meaning = "half of the gap"},
           {.name = "width",
            .unit = "Nm",
            .lower = 0.003 * f.torque_range,
-           .upper = 0.3 * f.torque_range}};
+           .upper = 0.3 * f.torque_range,
+           .meaning = "over which it turns its sign, or around zero torque"}};
 }
 
 // The gap is crossed as the torque changes sign: e = b tau/sqrt(tau^2 + t^2).

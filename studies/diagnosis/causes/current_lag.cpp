@@ -12,6 +12,10 @@ Counterpart as_lag(const FittedCause& c) {
   return {.effects = {{"current_lag", {{"time_constant", c.coefficients[0]}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"time_constant", "s", "of the filter between recorded and true motor torque"}};
+}
+
 }  // namespace
 
 CauseRow describe_current_lag() {
@@ -20,6 +24,7 @@ CauseRow describe_current_lag() {
           .forms = {{.equation = "T tau_m' = tau_m,recorded - tau_m",
                      .rigs = kMotors,
                      .at = {Equation::motor},
+                     .terms = terms,
                      .columns = lag,
                      .nonnegative = true,
                      .counterpart = as_lag}}};

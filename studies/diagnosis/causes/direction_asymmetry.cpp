@@ -20,7 +20,8 @@ std::vector<Shape> width(const Frame& f) {
   return {{.name = "width",
            .unit = "rad/s",
            .lower = 1e-3 * f.rate_range,
-           .upper = 0.2 * f.rate_range}};
+           .upper = 0.2 * f.rate_range,
+           .meaning = "over which it turns its sign, or around zero torque"}};
 }
 
 // A difference of dry friction alone, whatever else g^-1 is made of.
@@ -67,6 +68,18 @@ Counterpart dry_halves(const FittedCause& c) {
           .caveat = speed_caveat(c.frame)};
 }
 
+std::vector<Term> dry_terms(const Frame&) {
+  return {
+      {"coulomb_difference", "Nm", "half the difference of dry friction between the directions"},
+      {"viscous_difference", "Nm", "half that of viscous friction at the largest speed"}};
+}
+
+std::vector<Term> share_terms(const Frame&) {
+  return {
+      {"difference", "1", "half the difference of friction between the directions, a share of it"},
+      {"viscous_difference", "Nm", "half that of viscous friction at the largest rate"}};
+}
+
 }  // namespace
 
 CauseRow describe_direction_asymmetry() {
@@ -75,17 +88,20 @@ CauseRow describe_direction_asymmetry() {
           .forms = {{.equation = "tau_f += d tanh^2(w/w_e) + b |w|",
                      .rigs = kMotors,
                      .at = {Equation::motor},
+                     .terms = dry_terms,
                      .columns = at_motor,
                      .counterpart = motor_halves},
                     {.equation = "tau += d |tau_friction| + b |phi'|",
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
+                     .terms = share_terms,
                      .columns = across,
                      .counterpart = gear_halves},
                     {.equation = "tau += d tanh^2(phi'/v_w) + b |phi'|",
                      .rigs = {Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = width,
+                     .terms = dry_terms,
                      .columns = dry_across,
                      .counterpart = dry_halves}}};
 }

@@ -8,8 +8,18 @@ using Values = std::span<const double>;
 
 std::vector<Shape> amplitudes(const Frame& f) {
   const double most = 0.5 * f.torsion_range;
-  return {{.name = "sine", .unit = "rad", .lower = -most, .upper = most, .logarithmic = false},
-          {.name = "cosine", .unit = "rad", .lower = -most, .upper = most, .logarithmic = false}};
+  return {{.name = "sine",
+           .unit = "rad",
+           .lower = -most,
+           .upper = most,
+           .logarithmic = false,
+           .meaning = "of the error once a turn"},
+          {.name = "cosine",
+           .unit = "rad",
+           .lower = -most,
+           .upper = most,
+           .logarithmic = false,
+           .meaning = "its cosine"}};
 }
 
 // theta_l is less than measured by e = a sin theta_l + b cos theta_l.

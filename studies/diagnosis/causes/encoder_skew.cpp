@@ -8,7 +8,12 @@ using Values = std::span<const double>;
 
 std::vector<Shape> skew(const Frame& f) {
   const double most = f.torsion_range / f.load_speed.abs().maxCoeff();
-  return {{.name = "delay", .unit = "s", .lower = -most, .upper = most, .logarithmic = false}};
+  return {{.name = "delay",
+           .unit = "s",
+           .lower = -most,
+           .upper = most,
+           .logarithmic = false,
+           .meaning = "by which it is late"}};
 }
 
 std::vector<double> none(const Frame&) { return {0.0}; }

@@ -18,6 +18,11 @@ Counterpart as_moment(const FittedCause& c) {
   return {.effects = {{"gravity_load", {{"moment", amplitude}, {"phase", phase}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"sine", "Nm", "of the torque that goes with the sine of the load angle"},
+          {"cosine", "Nm", "with its cosine"}};
+}
+
 }  // namespace
 
 CauseRow describe_gravity_load() {
@@ -26,6 +31,7 @@ CauseRow describe_gravity_load() {
           .forms = {{.equation = "tau_L += m g l sin(theta_l + a)",
                      .rigs = {Rig::free},
                      .at = {Equation::load},
+                     .terms = terms,
                      .columns = pendulum,
                      .counterpart = as_moment}}};
 }

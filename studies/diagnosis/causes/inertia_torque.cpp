@@ -14,7 +14,8 @@ std::vector<Shape> lag(const Frame& f) {
   return {{.name = "time_constant",
            .unit = "s",
            .lower = 0.02 / f.fastest(),
-           .upper = f.longest_lag()}};
+           .upper = f.longest_lag(),
+           .meaning = "in which it follows or settles"}};
 }
 
 // An inertia that a damped joint carries along.
@@ -48,6 +49,11 @@ constexpr std::string_view kConstant = "a rig's inertias are its constants, not 
 constexpr std::string_view kNotOfLoad =
     "the catalogue of effects has an inertia before the sensor only where the torsion moves it";
 
+std::vector<Term> terms(const Frame&) {
+  return {{"inertia", "kg m2",
+           "what moves between the spring and the sensor, or beside what is stated"}};
+}
+
 }  // namespace
 
 CauseRow describe_inertia_torque() {
@@ -56,6 +62,7 @@ CauseRow describe_inertia_torque() {
           .forms = {{.equation = "tau_measured = tau + J phi''",
                      .rigs = {Rig::locked, Rig::specimen},
                      .at = {Equation::torsion},
+                     .terms = terms,
                      .columns = of_torsion,
                      .nonnegative = true,
                      .counterpart = as_inertia},
@@ -63,6 +70,7 @@ CauseRow describe_inertia_torque() {
                      .rigs = {Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = lag,
+                     .terms = terms,
                      .columns = following,
                      .nonnegative = true,
                      .extends = true,
@@ -71,16 +79,19 @@ CauseRow describe_inertia_torque() {
                     {.equation = "tau_measured = tau + J theta_l''",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
+                     .terms = terms,
                      .columns = before_sensor,
                      .no_counterpart = kNotOfLoad},
                     {.equation = "tau_L += J theta_l''",
                      .rigs = {Rig::free},
                      .at = {Equation::load},
+                     .terms = terms,
                      .columns = of_load,
                      .no_counterpart = kConstant},
                     {.equation = "tau_f += J theta_m''",
                      .rigs = kDrives,
                      .at = {Equation::motor},
+                     .terms = terms,
                      .columns = of_motor,
                      .no_counterpart = kConstant}}};
 }

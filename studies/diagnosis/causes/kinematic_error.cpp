@@ -15,8 +15,12 @@ std::vector<Shape> amplitudes(const Frame& f) {
   const double most = 0.5 * f.torsion_range;
   std::vector<Shape> shapes;
   for (std::string_view name : {"sine_2", "cosine_2", "sine_4", "cosine_4", "sine_1", "cosine_1"}) {
-    shapes.push_back(
-        {.name = name, .unit = "rad", .lower = -most, .upper = most, .logarithmic = false});
+    shapes.push_back({.name = name,
+                      .unit = "rad",
+                      .lower = -most,
+                      .upper = most,
+                      .logarithmic = false,
+                      .meaning = "amplitude by the turns of the motor"});
   }
   return shapes;
 }
@@ -37,7 +41,12 @@ std::vector<double> start(const Frame& f) {
 }
 
 std::vector<Shape> turns(const Frame&) {
-  return {{.name = "order", .unit = "1", .lower = 1.0, .upper = 4.0, .discrete = true}};
+  return {{.name = "order",
+           .unit = "1",
+           .lower = 1.0,
+           .upper = 4.0,
+           .discrete = true,
+           .meaning = "of a turn of the motor"}};
 }
 
 // A joint whose torsion is not measured shows the torque that the error winds up.
@@ -59,6 +68,10 @@ Counterpart as_error(const FittedCause& c) {
 constexpr std::string_view kNoTorsion =
     "a model file has kinematic errors in the torsion, which was not measured";
 
+std::vector<Term> terms(const Frame&) {
+  return {{"sine", "Nm", "of the torque that the error winds up"}, {"cosine", "Nm", "its cosine"}};
+}
+
 }  // namespace
 
 CauseRow describe_kinematic_error() {
@@ -75,6 +88,7 @@ CauseRow describe_kinematic_error() {
                      .rigs = {Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = turns,
+                     .terms = terms,
                      .columns = torque_wound_up,
                      .where = travels,
                      .ripples = ripples,

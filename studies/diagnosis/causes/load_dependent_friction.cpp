@@ -62,6 +62,15 @@ Counterpart gear_friction_with_memory(const FittedCause& c) {
   return {.effects = {std::move(effect)}, .caveat = std::string(kOfAllTorque)};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"coefficient", "1", "friction over the torque that loads it"}};
+}
+
+std::vector<Term> terms_with_memory(const Frame& f) {
+  return elements(yields_of(f), {"coefficient", "1", "share of friction over load that slips there",
+                                 "yield", 0.0, "rad", "way after which it slips; of a fixed grid"});
+}
+
 }  // namespace
 
 CauseRow describe_load_dependent_friction() {
@@ -71,12 +80,14 @@ CauseRow describe_load_dependent_friction() {
       .forms = {{.equation = "tau_f += mu |tau|/N sgn w",
                  .rigs = kMotors,
                  .at = {Equation::motor},
+                 .terms = terms,
                  .columns = at_motor,
                  .nonnegative = true,
                  .counterpart = motor_friction},
                 {.equation = "tau += mu |f(phi)| sgn phi'",
                  .rigs = {Rig::locked, Rig::specimen},
                  .at = {Equation::torsion},
+                 .terms = terms,
                  .columns = across,
                  .nonnegative = true,
                  .friction = true,
@@ -84,6 +95,7 @@ CauseRow describe_load_dependent_friction() {
                 {.equation = "tau += |f(phi)| sum_i mu_i s_i/r_i, s_i' = phi' unless |s_i| = r_i",
                  .rigs = {Rig::locked, Rig::specimen},
                  .at = {Equation::torsion},
+                 .terms = terms_with_memory,
                  .columns = across_with_memory,
                  .nonnegative = true,
                  .friction = true,

@@ -14,6 +14,10 @@ Counterpart as_offset(const FittedCause& c) {
   return {.effects = {{"motor_torque_offset", {{"offset", c.coefficients[0]}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"offset", "Nm", "what is recorded of a motor without a torque"}};
+}
+
 }  // namespace
 
 CauseRow describe_motor_torque_offset() {
@@ -22,6 +26,7 @@ CauseRow describe_motor_torque_offset() {
           .forms = {{.equation = "tau_m,recorded = tau_m + o",
                      .rigs = kMotors,
                      .at = {Equation::motor},
+                     .terms = terms,
                      .columns = constant,
                      .counterpart = as_offset}}};
 }

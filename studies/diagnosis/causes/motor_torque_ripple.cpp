@@ -9,7 +9,12 @@ using Values = std::span<const double>;
 constexpr double kHighestOrder = 36.0;
 
 std::vector<Shape> turns(const Frame&) {
-  return {{.name = "order", .unit = "1", .lower = 1.0, .upper = kHighestOrder, .discrete = true}};
+  return {{.name = "order",
+           .unit = "1",
+           .lower = 1.0,
+           .upper = kHighestOrder,
+           .discrete = true,
+           .meaning = "of a turn of the motor"}};
 }
 
 bool ripples(double order) { return order >= 1.0 && order <= kHighestOrder; }
@@ -40,6 +45,15 @@ Counterpart under_current(const FittedCause& c) {
                         {"ripple_cosine", c.coefficients[1]}}}}};
 }
 
+std::vector<Term> cogging_terms(const Frame&) {
+  return {{"sine", "Nm", "of the ripple over the motor angle"}, {"cosine", "Nm", "its cosine"}};
+}
+
+std::vector<Term> ripple_terms(const Frame&) {
+  return {{"sine", "1", "of the ripple, a share of the motor torque"},
+          {"cosine", "1", "its cosine"}};
+}
+
 }  // namespace
 
 CauseRow describe_motor_torque_ripple() {
@@ -49,6 +63,7 @@ CauseRow describe_motor_torque_ripple() {
                      .rigs = kTurning,
                      .at = {Equation::motor},
                      .shapes = turns,
+                     .terms = cogging_terms,
                      .columns = ripple,
                      .where = geared,
                      .ripples = ripples,
@@ -57,6 +72,7 @@ CauseRow describe_motor_torque_ripple() {
                      .rigs = kTurning,
                      .at = {Equation::motor},
                      .shapes = turns,
+                     .terms = ripple_terms,
                      .columns = ripple_under_current,
                      .where = geared,
                      .counterpart = under_current}}};

@@ -9,11 +9,21 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 std::vector<Shape> steep(const Frame&) {
-  return {{.name = "exponent", .unit = "1", .lower = 1.25, .upper = 4.0, .grid = 4}};
+  return {{.name = "exponent",
+           .unit = "1",
+           .lower = 1.25,
+           .upper = 4.0,
+           .grid = 4,
+           .meaning = "of the speed"}};
 }
 
 std::vector<Shape> flat(const Frame&) {
-  return {{.name = "exponent", .unit = "1", .lower = 0.25, .upper = 0.8, .grid = 4}};
+  return {{.name = "exponent",
+           .unit = "1",
+           .lower = 0.25,
+           .upper = 0.8,
+           .grid = 4,
+           .meaning = "of the speed"}};
 }
 
 ArrayXd power(const ArrayXd& speed, double exponent) {
@@ -48,6 +58,10 @@ Counterpart travel_drag(const FittedCause& c) {
   return power_drag(c, c.frame.torsion_rate.abs().maxCoeff());
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"drag", "Nm", "at the largest speed, beyond the viscous one"}};
+}
+
 }  // namespace
 
 CauseRow describe_nonlinear_viscous_friction() {
@@ -57,6 +71,7 @@ CauseRow describe_nonlinear_viscous_friction() {
                      .rigs = std::move(rigs),
                      .at = {at},
                      .shapes = shapes,
+                     .terms = terms,
                      .columns = columns,
                      .nonnegative = true,
                      .where = travels,

@@ -73,6 +73,19 @@ Counterpart travel_waves(const FittedCause& c) {
   return {.effects = {std::move(effect)}};
 }
 
+std::vector<Term> turn_terms(const Frame&) {
+  return {{"sine_1", "Nm", "of the friction once a turn of the motor"},
+          {"cosine_1", "Nm", "its cosine"},
+          {"sine_2", "Nm", "of the friction twice a turn"},
+          {"cosine_2", "Nm", "its cosine"}};
+}
+
+std::vector<Term> travel_terms(const Frame&) {
+  return {{"cosine_1", "Nm", "of the friction over the travel, half a wave"},
+          {"cosine_2", "Nm", "one wave"},
+          {"cosine_3", "Nm", "one and a half waves"}};
+}
+
 }  // namespace
 
 CauseRow describe_position_dependent_friction() {
@@ -82,12 +95,14 @@ CauseRow describe_position_dependent_friction() {
               {.equation = "tau_f += sum_k (a_k sin k theta_m + b_k cos k theta_m) sgn w, k = 1, 2",
                .rigs = kTurning,
                .at = {Equation::motor},
+               .terms = turn_terms,
                .columns = at_motor,
                .where = geared,
                .counterpart = motor_waves},
               {.equation = "tau += sum_k (a_k sin k N q + b_k cos k N q) sgn q', k = 1, 2",
                .rigs = {Rig::specimen},
                .at = {Equation::torsion},
+               .terms = turn_terms,
                .columns = at_joint,
                .where = travels,
                .ripples = ripples,
@@ -95,6 +110,7 @@ CauseRow describe_position_dependent_friction() {
               {.equation = "tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel",
                .rigs = {Rig::specimen},
                .at = {Equation::torsion},
+               .terms = travel_terms,
                .columns = along_travel,
                .where = travels,
                .counterpart = travel_waves}}};

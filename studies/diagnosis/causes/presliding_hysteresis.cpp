@@ -66,6 +66,20 @@ Counterpart in_the_motor(const FittedCause& c) {
   return springs_that_travel(c, motor_yields(c.frame));
 }
 
+Term element() {
+  return {"stiffness",
+          "Nm/rad",
+          "of a spring that slips",
+          "yield",
+          0.0,
+          "rad",
+          "way after which it slips; of a fixed grid"};
+}
+
+std::vector<Term> gear_terms(const Frame& f) { return elements(gear_yields(f), element()); }
+
+std::vector<Term> motor_terms(const Frame& f) { return elements(motor_yields(f), element()); }
+
 }  // namespace
 
 CauseRow describe_presliding_hysteresis() {
@@ -74,6 +88,7 @@ CauseRow describe_presliding_hysteresis() {
           .forms = {{.equation = "tau += sum_i k_i s_i, s_i' = phi' unless |s_i| = r_i",
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
+                     .terms = gear_terms,
                      .columns = across,
                      .nonnegative = true,
                      .friction = true,
@@ -81,6 +96,7 @@ CauseRow describe_presliding_hysteresis() {
                     {.equation = "tau_f += sum_i k_i s_i, s_i' = theta_m' unless |s_i| = r_i",
                      .rigs = kMotors,
                      .at = {Equation::motor},
+                     .terms = motor_terms,
                      .columns = at_motor,
                      .nonnegative = true,
                      .counterpart = in_the_motor}}};

@@ -17,6 +17,12 @@ Counterpart with_its_zero(const FittedCause& c) {
                       {"torque_sensor_offset", {{"offset", c.coefficients[2]}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"sine", "Nm", "of the torque read twice a turn of the motor"},
+          {"cosine", "Nm", "its cosine"},
+          {"offset", "Nm", "its zero where the motor stood"}};
+}
+
 }  // namespace
 
 CauseRow describe_sensor_crosstalk() {
@@ -25,6 +31,7 @@ CauseRow describe_sensor_crosstalk() {
           .forms = {{.equation = "tau_measured = tau + a (sin(2 theta_m + p) - o)",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
+                     .terms = terms,
                      .columns = twice_a_turn,
                      .counterpart = with_its_zero}}};
 }

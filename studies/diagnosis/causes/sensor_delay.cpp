@@ -8,7 +8,12 @@ using Values = std::span<const double>;
 
 std::vector<Shape> delay(const Frame& f) {
   const double most = 0.5 / f.fastest();
-  return {{.name = "delay", .unit = "s", .lower = -most, .upper = most, .logarithmic = false}};
+  return {{.name = "delay",
+           .unit = "s",
+           .lower = -most,
+           .upper = most,
+           .logarithmic = false,
+           .meaning = "by which it is late"}};
 }
 
 std::vector<Shape> long_delay(const Frame& f) {
@@ -42,7 +47,8 @@ std::vector<Shape> delay_and_lag(const Frame& f) {
                     .unit = "s",
                     .lower = 0.0,
                     .upper = f.longest_lag(),
-                    .logarithmic = false});
+                    .logarithmic = false,
+                    .meaning = "in which it follows or settles"});
   return shapes;
 }
 

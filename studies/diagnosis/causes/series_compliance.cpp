@@ -12,7 +12,8 @@ std::vector<Shape> compliance(const Frame& f) {
            .unit = "rad/Nm",
            .lower = 0.01 * whole,
            .upper = 0.7 * whole,
-           .grid = 4}};
+           .grid = 4,
+           .meaning = "torsion over torque of what is in series"}};
 }
 
 void in_series(Frame& f, Values shape) {

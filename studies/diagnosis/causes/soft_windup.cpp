@@ -11,7 +11,8 @@ std::vector<Shape> knee(const Frame& f) {
            .unit = "rad",
            .lower = 0.03 * f.torsion_range,
            .upper = 0.7 * f.torsion_range,
-           .grid = 4}};
+           .grid = 4,
+           .meaning = "torsion at which it stiffens"}};
 }
 
 Columns stiffening(Equation, const Frame& f, const Reference&, Values shape) {
@@ -25,6 +26,10 @@ Counterpart as_windup(const FittedCause& c) {
   return {.effects = {{"soft_windup", {{"stiffening", c.coefficients[0]}, {"knee", c.shape[0]}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"stiffening", "Nm/rad", "by which the stiffness grows from the middle to the ends"}};
+}
+
 }  // namespace
 
 CauseRow describe_soft_windup() {
@@ -34,6 +39,7 @@ CauseRow describe_soft_windup() {
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
                      .shapes = knee,
+                     .terms = terms,
                      .columns = stiffening,
                      .where = may_be_soft,
                      .counterpart = as_windup}}};

@@ -7,8 +7,13 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 std::vector<Shape> shapes(std::string_view name, double range) {
-  return {{.name = name, .unit = "rad/s", .lower = 0.003 * range, .upper = 0.6 * range, .grid = 6},
-          {.name = "exponent", .unit = "1", .lower = 0.5, .upper = 3.0}};
+  return {{.name = name,
+           .unit = "rad/s",
+           .lower = 0.003 * range,
+           .upper = 0.6 * range,
+           .grid = 6,
+           .meaning = "at which the excess has fallen to 1/e"},
+          {.name = "exponent", .unit = "1", .lower = 0.5, .upper = 3.0, .meaning = "of the speed"}};
 }
 
 std::vector<Shape> motor_speed(const Frame& f) { return shapes("stribeck_speed", f.speed_range); }
@@ -20,7 +25,8 @@ std::vector<Shape> rate_and_width(const Frame& f) {
   list.push_back({.name = "width",
                   .unit = "rad/s",
                   .lower = 1e-3 * f.rate_range,
-                  .upper = 0.1 * f.rate_range});
+                  .upper = 0.1 * f.rate_range,
+                  .meaning = "over which it turns its sign, or around zero torque"});
   return list;
 }
 
@@ -60,12 +66,17 @@ Counterpart gear_peak(const FittedCause& c) {
           .caveat = speed_caveat(c.frame)};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"excess", "Nm", "of the friction at rest over that in motion"}};
+}
+
 CauseForm form(std::string_view equation, Equation at, decltype(CauseForm::columns) columns) {
   const bool motor = at == Equation::motor;
   return {.equation = equation,
           .rigs = motor ? kMotors : kAnyRig,
           .at = {at},
           .shapes = motor ? motor_speed : rate,
+          .terms = terms,
           .columns = columns,
           .nonnegative = true,
           .friction = !motor,
@@ -78,6 +89,7 @@ CauseForm rounded_form() {
           .rigs = {Rig::specimen},
           .at = {Equation::torsion},
           .shapes = rate_and_width,
+          .terms = terms,
           .columns = across_rounded,
           .nonnegative = true,
           .friction = true,

@@ -11,7 +11,8 @@ std::vector<Shape> warming(const Frame& f) {
            .unit = "s",
            .lower = 0.05 * f.session,
            .upper = 4.0 * f.session,
-           .grid = 4}};
+           .grid = 4,
+           .meaning = "in which it follows or settles"}};
 }
 
 Columns at_motor(Equation, const Frame& f, const Reference& known, Values shape) {
@@ -36,6 +37,15 @@ Counterpart motor_warms(const FittedCause& c) {
   return counterpart;
 }
 
+std::vector<Term> motor_terms(const Frame&) {
+  return {{"coulomb", "Nm", "dry friction of the cold motor beyond the warm one's"},
+          {"viscous", "Nm", "the same of the viscous friction at the largest speed"}};
+}
+
+std::vector<Term> gear_terms(const Frame&) {
+  return {{"share", "1", "of the dissipative torque, by which it is larger when cold"}};
+}
+
 }  // namespace
 
 CauseRow describe_thermal_friction_drift() {
@@ -45,6 +55,7 @@ CauseRow describe_thermal_friction_drift() {
                      .rigs = kMotors,
                      .at = {Equation::motor},
                      .shapes = warming,
+                     .terms = motor_terms,
                      .columns = at_motor,
                      .nonnegative = true,
                      .counterpart = motor_warms},
@@ -52,6 +63,7 @@ CauseRow describe_thermal_friction_drift() {
                      .rigs = {Rig::locked, Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = warming,
+                     .terms = gear_terms,
                      .columns = across,
                      .nonnegative = true,
                      .no_counterpart =

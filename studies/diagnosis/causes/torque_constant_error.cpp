@@ -17,6 +17,10 @@ Counterpart as_error(const FittedCause& c) {
   return {.effects = {{"torque_constant_error", {{"error", a / (1.0 - a)}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"share", "1", "share of the motor torque that was not recorded"}};
+}
+
 }  // namespace
 
 CauseRow describe_torque_constant_error() {
@@ -25,7 +29,9 @@ CauseRow describe_torque_constant_error() {
           .forms = {{.equation = "tau_m = (1 + e) tau_m,recorded",
                      .rigs = kDrives,
                      .at = {Equation::motor},
+                     .terms = terms,
                      .columns = gain,
+                     .rescales = true,
                      .counterpart = as_error}}};
 }
 

@@ -11,7 +11,8 @@ std::vector<Shape> settling(const Frame& f) {
            .unit = "s",
            .lower = 0.05 * f.session,
            .upper = 2.0 * f.session,
-           .grid = 3}};
+           .grid = 3,
+           .meaning = "in which it follows or settles"}};
 }
 
 Columns steady(Equation equation, const Frame& f, const Reference&, Values) {
@@ -37,6 +38,14 @@ Counterpart as_settling(const FittedCause& c) {
           .caveat = kSessionClock};
 }
 
+std::vector<Term> over_session(const Frame&) {
+  return {{"drift", "Nm", "what the torque sensor drifts by over the session"}};
+}
+
+std::vector<Term> in_the_end(const Frame&) {
+  return {{"settling", "Nm", "what the torque sensor settles by in the end"}};
+}
+
 }  // namespace
 
 CauseRow describe_torque_sensor_drift() {
@@ -46,12 +55,14 @@ CauseRow describe_torque_sensor_drift() {
           .forms = {{.equation = "tau_measured = tau + r t, t of the session",
                      .rigs = kAnyRig,
                      .at = at,
+                     .terms = over_session,
                      .columns = steady,
                      .counterpart = as_rate},
                     {.equation = "tau_measured = tau + a (1 - exp(-t/T)), t of the session",
                      .rigs = kAnyRig,
                      .at = at,
                      .shapes = settling,
+                     .terms = in_the_end,
                      .columns = settles,
                      .counterpart = as_settling}}};
 }

@@ -19,6 +19,10 @@ Counterpart as_gain(const FittedCause& c) {
           .law_factor = 1.0 / (1.0 + error)};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"error", "1", "share by which the torque is read too large"}};
+}
+
 }  // namespace
 
 CauseRow describe_torque_sensor_gain() {
@@ -27,7 +31,9 @@ CauseRow describe_torque_sensor_gain() {
           .forms = {{.equation = "tau_measured = (1 + e) tau",
                      .rigs = kDrives,
                      .at = {Equation::load, Equation::motor},
+                     .terms = terms,
                      .columns = gain,
+                     .rescales = true,
                      .counterpart = as_gain}}};
 }
 

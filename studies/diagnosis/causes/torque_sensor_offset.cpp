@@ -14,6 +14,10 @@ Counterpart as_offset(const FittedCause& c) {
   return {.effects = {{"torque_sensor_offset", {{"offset", c.coefficients[0]}}}}};
 }
 
+std::vector<Term> terms(const Frame&) {
+  return {{"offset", "Nm", "what the torque sensor reads without a torque"}};
+}
+
 }  // namespace
 
 CauseRow describe_torque_sensor_offset() {
@@ -22,6 +26,7 @@ CauseRow describe_torque_sensor_offset() {
           .forms = {{.equation = "tau_measured = tau + o",
                      .rigs = kDrives,
                      .at = {Equation::torsion, Equation::load, Equation::motor},
+                     .terms = terms,
                      .columns = constant,
                      .counterpart = as_offset}}};
 }

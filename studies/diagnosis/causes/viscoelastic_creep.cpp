@@ -50,6 +50,12 @@ Counterpart as_branches(const FittedCause& c) {
   return {.effects = {std::move(effect)}};
 }
 
+std::vector<Term> terms(const Frame& f) {
+  return elements(relaxations_of(f),
+                  {"stiffness", "Nm/rad", "of a spring that relaxes", "time_constant", 0.0, "s",
+                   "in which it relaxes; of a fixed grid"});
+}
+
 }  // namespace
 
 CauseRow describe_viscoelastic_creep() {
@@ -58,6 +64,7 @@ CauseRow describe_viscoelastic_creep() {
           .forms = {{.equation = "tau += sum_i k_i s_i, s_i' = phi' - s_i/T_i",
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
+                     .terms = terms,
                      .columns = branches,
                      .nonnegative = true,
                      .where = wound_up,

@@ -18,11 +18,17 @@ struct ShownMismatch {
   double share_of_excess = kAbsent;
 };
 
+struct ShownCauseParameter : Parameter {
+  std::string meaning, no_interval;
+};
+
 struct ShownCause {
   std::string effect, equation;
   double probability = kAbsent;
   double size_fraction = kAbsent;
-  std::vector<Parameter> parameters;
+  double size = kAbsent;
+  std::string unit, size_of;
+  std::vector<ShownCauseParameter> parameters;
   std::vector<std::string> alternatives;
   double p_value = kAbsent;
   double holdout_ratio = kAbsent;
@@ -81,6 +87,7 @@ struct DiagnosisView {
   double ratio_lower = kAbsent;
   double ratio_upper = kAbsent;
   double noise_floor = kAbsent;
+  bool nested = false;  ///< held out before the search
   std::vector<ShownMismatch> mismatch;
   std::vector<ShownCause> causes;
   std::vector<ShownConfusable> confusable;

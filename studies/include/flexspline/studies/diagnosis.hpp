@@ -10,11 +10,12 @@
 #include "flexspline/core/estimate.hpp"
 #include "flexspline/core/model_spec.hpp"
 #include "flexspline/core/recording.hpp"
+#include "flexspline/data/sanity.hpp"
 
 namespace flexspline::studies {
 
 /// What a diagnosis ends with; the words of flexspline-diagnosis/1.
-enum class Verdict { adequate, explained, partly_explained, unexplained };
+enum class Verdict { adequate, explained, partly_explained, unexplained, undecided };
 
 std::string_view name_of(Verdict verdict);
 
@@ -34,8 +35,12 @@ struct Mismatch {
 struct CauseParameter {
   std::string name;
   double value = kNotComputed;
-  double std = kNotComputed;
+  double std = kNotComputed;  ///< with all other parameters free, the residual's colour counted
   std::string unit;
+  std::string meaning{};
+  double ci95_lower = kNotComputed;
+  double ci95_upper = kNotComputed;
+  std::string no_interval{};  ///< why it has none
 };
 
 /// What speaks for a cause, all on recordings.
@@ -52,10 +57,13 @@ struct CauseEvidence {
 /// An effect that was left out of the baseline.
 struct Cause {
   std::string effect;
-  /// Share among the causes tried, net gains taken as log likelihoods and quartered; not
-  /// calibrated.
+  /// Share among the causes tried, net gains taken as log likelihoods and quartered. Not
+  /// calibrated: shown as a weight.
   double probability = kNotComputed;
   double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
+  double size = kNotComputed;           ///< the same, SI
+  std::string unit{};                   ///< of size: Nm, or N on a specimen that moves along a line
+  std::string size_of{};                ///< which torque size_fraction is a fraction of
   std::string equation;
   std::vector<CauseParameter> parameters;
   std::vector<std::string> alternatives;  ///< at most two that explain the same signal as well
@@ -80,6 +88,9 @@ struct TriedCandidate {
   std::string outcome;  ///< accepted, or the reason for the rejection in words
 };
 
+/// Errors on recordings held out. Not nested: every row is judged by fits that did not see it, but
+/// the causes were chosen with it in view. Nested: the recordings were taken away before the
+/// search.
 struct HoldoutProof {
   double rmse_before = kNotComputed;  ///< in the effort of the recordings, SI
   double rmse_after = kNotComputed;
@@ -87,6 +98,10 @@ struct HoldoutProof {
   double ci95_lower = kNotComputed;
   double ci95_upper = kNotComputed;
   double noise_floor = kNotComputed;
+  bool nested = false;
+  std::vector<std::string> recordings{};  ///< held out, where nested
+
+  double over_noise() const { return rmse_after / noise_floor; }
 };
 
 struct NextExperiment {
@@ -126,14 +141,17 @@ struct Diagnosis {
   Verdict verdict = Verdict::unexplained;
   std::string says;  ///< the verdict in a sentence
   std::vector<Mismatch> mismatch;
-  std::vector<Cause> causes;
+  std::vector<Cause> causes;  ///< largest size_fraction first
   std::vector<Confusable> confusable;
   std::vector<TriedCandidate> tried;
   std::vector<ParameterMove> moved;
   HoldoutProof holdout;
+  std::optional<HoldoutProof>
+      cross_validated;  ///< of the other recordings, where holdout is nested
   std::optional<NextExperiment> next_experiment;
   std::vector<DiagnosedSeries> series;
   std::vector<std::string> notes;
+  std::vector<data::SanityFinding> mistaken;  ///< what looks like a mistake, not like physics
   std::optional<ModelSpec> model;  ///< the baseline with the accepted effects, where there is one
   DisplayUnits display;
   double seconds = kNotComputed;
@@ -146,8 +164,10 @@ using DiagnosisProgress = std::function<void(double, std::string_view)>;
 /// it and proves it on recordings held out. It uses the recordings, the bench's constants and the
 /// catalogue of effects; no names, and nothing of the order in which recordings or columns stand.
 /// The result does not depend on the number of threads; 0: as many as the machine has.
-/// Errors: recordings that are not usable (data), numerics.
+/// holdout: ids of recordings that are taken away before anything is looked for, and on which the
+/// final model is judged once.
+/// Errors: recordings that are not usable (data), an id that does not exist (usage), numerics.
 Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress = {},
-                           unsigned threads = 0);
+                           unsigned threads = 0, const std::vector<std::string>& holdout = {});
 
 }  // namespace flexspline::studies

@@ -12,7 +12,9 @@ namespace flexspline::studies {
 
 inline constexpr std::string_view kDiagnosisSchema = "flexspline-diagnosis/1";
 
-/// A diagnosis as flexspline-diagnosis/1 (docs/artefacts.md). Keys that end in _nm are in Nm, on a
+/// A diagnosis as flexspline-diagnosis/1 (docs/artefacts.md): causes largest first, p-values no
+/// smaller than 1e-12, notes with a code (check_units, check_sign, check_ratio, check_channel, or
+/// remark). Keys that end in _nm are in Nm, on a
 /// linear specimen in N, as `units.rmse` says; parameters have deg where the catalogue has rad;
 /// series are in the data set's own units. What was not computed is null.
 nlohmann::ordered_json to_json(const Diagnosis& diagnosis);

@@ -101,14 +101,14 @@ struct CaseScore : NameScore {
   CaseKind kind = CaseKind::null;
   bool failed = false;            ///< no diagnosis
   bool null_right = false;        ///< null: adequate, and no name
-  bool detected = false;          ///< the verdict is not adequate
+  bool detected = false;          ///< the verdict is neither adequate nor undecided
   bool unknown_right = false;     ///< unknown, incident: something is left out, and has no name
   bool incident_found = false;    ///< incident: its recording and interval are told
   double overlap = kNotComputed;  ///< incident: intersection over union of the intervals
   int named = 0;                  ///< causes
   bool located = false;           ///< a right coordinate among the first three mismatches
   bool has_coordinate = false;    ///< the truth has one
-  std::string first_name;         ///< "adequate", "no name", or an effect; a twin is the truth
+  std::string first_name;         ///< "adequate", "undecided", "no name", or an effect
   /// The same where a cause counts as right, too, when one of its first two alternatives is.
   NameScore with_alternatives;
   std::vector<GivenName> names;
