@@ -36,6 +36,16 @@ Verdict verdict_of(const Selection& s, const Limits& limits) {
   return s.remainder ? Verdict::partly_explained : Verdict::explained;
 }
 
+/// What a model file says of causes that are in the model, but too small to be named.
+std::vector<std::string> remarks_on(const Selection& s) {
+  std::vector<std::string> remarks;
+  for (const Accepted& small : s.immaterial) {
+    remarks.push_back(
+        fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
+  }
+  return remarks;
+}
+
 void say_undecided(const Frame& frame, Diagnosis& d) {
   d.next_experiment = another_rate(frame);
   d.says = "Cannot be decided with these data: ";
@@ -73,7 +83,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   d.noise_std = weighted_level(frame, selection.final.noise[index_of(shown)]) *
                 (shown == Equation::motor ? frame.ratio : 1.0);
   d.verdict = verdict_of(selection, limits);
-  auto specification = specify(frame, selection.final.fit.model);
+  auto specification = specify(frame, selection.final.fit.model, remarks_on(selection));
   d.model = std::move(specification.model);
   d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
   d.holdout = proof.holdout;

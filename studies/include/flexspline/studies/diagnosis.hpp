@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "flexspline/core/drive_spec.hpp"
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/estimate.hpp"
-#include "flexspline/core/model_spec.hpp"
 #include "flexspline/core/recording.hpp"
 
 namespace flexspline::studies {
@@ -134,7 +134,7 @@ struct Diagnosis {
   std::optional<NextExperiment> next_experiment;
   std::vector<DiagnosedSeries> series;
   std::vector<std::string> notes;
-  std::optional<ModelSpec> model;  ///< the baseline with the accepted effects, where there is one
+  RigModel model;  ///< the whole rig: its constants, the baseline and the accepted effects
   DisplayUnits display;
   double seconds = kNotComputed;
 };
