@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/effect_dependence.hpp"
+#include "flexspline/core/effect_path.hpp"
 #include "rigs/drive_at.hpp"
 
 namespace flexspline {
@@ -90,25 +91,28 @@ Result<DriveModel> DriveModel::make(const DriveSpec& drive, std::vector<DriveCon
     if (!row) return tl::unexpected(row.error());
     const auto values = parameter_values(**row, spec);
     if (!values) return tl::unexpected(values.error());
-    EffectUse use{*row, model.parameters_, values->size(), model.memory_, 0};
+    const Site site = site_of(**row, spec);
+    EffectUse use{*row, site, spec.across, model.parameters_, values->size(), model.memory_, 0};
     model.parameters_ += values->size();
     // What only the instruments show is entered afterwards.
-    if (on_instrument((*row)->site) && std::ranges::find(signals, (*row)->site) == signals.end()) {
+    if (on_instrument(site) && std::ranges::find(signals, site) == signals.end()) {
       continue;
     }
     if (auto good = check(**row, *values, torque); !good) return tl::unexpected(good.error());
     use.follows_torsion = depends_on(**row, *values, &Instant<Complex>::torsion);
     use.follows_torque = depends_on(**row, *values, &Instant<Complex>::transmitted_torque);
-    use.follows_motor = term_depends_on(**row, *values, &Instant<Complex>::motor_angle);
-    use.follows_load = term_depends_on(**row, *values, &Instant<Complex>::load_angle);
-    if ((*row)->site == Site::kinematics) {
+    use.follows_motor =
+        !spec.across && term_depends_on(**row, *values, &Instant<Complex>::motor_angle);
+    use.follows_load =
+        !spec.across && term_depends_on(**row, *values, &Instant<Complex>::load_angle);
+    if (site == Site::kinematics) {
       const bool of_torque = term_depends_on(**row, *values, &Instant<Complex>::transmitted_torque);
       model.torsion_is_state_ |= of_torque;
       // A memory may need a threshold of torque to move, which no step finds.
       model.follows_torque_ |= of_torque || (*row)->states > 0;
     }
     use.states = state_count(**row, values->size());
-    model.sensor_remembers_ |= (*row)->site == Site::torque_signal && use.states > 0;
+    model.sensor_remembers_ |= site == Site::torque_signal && use.states > 0;
     model.memory_ += use.states;
     model.effects_.push_back(use);
   }
@@ -144,7 +148,7 @@ Result<void> DriveModel::check_yielding() const {
 }
 
 bool DriveModel::has(Site site) const {
-  return std::ranges::any_of(effects_, [&](const EffectUse& use) { return use.row->site == site; });
+  return std::ranges::any_of(effects_, [&](const EffectUse& use) { return use.site == site; });
 }
 
 void DriveModel::remake(std::size_t which, std::vector<double> coefficients) const {

@@ -32,6 +32,11 @@ Result<std::vector<double>> terms_along(const EffectRow& row, const EffectSpec& 
                                         std::span<const Instant<double>> path) {
   const auto values = parameter_values(row, spec);
   if (!values) return tl::unexpected(values.error());
+  std::vector<Instant<double>> across;
+  if (spec.across) {
+    std::ranges::transform(path, std::back_inserter(across), across_transmission<double>);
+    path = across;
+  }
   std::vector<double> states(state_count(row, values->size()), 0.0);
   std::vector<double> terms(path.size());
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -59,7 +59,7 @@ Result<Series> effects_at(std::initializer_list<Site> sites, const DriveSpec& dr
   for (const EffectSpec& spec : drive.torsion.effects) {
     const auto row = find_effect(spec.effect);
     if (!row) return tl::unexpected(row.error());
-    if (std::ranges::find(sites, (*row)->site) == sites.end()) continue;
+    if (std::ranges::find(sites, site_of(**row, spec)) == sites.end()) continue;
     if (auto done = apply_along(**row, spec, path, sum); !done) return tl::unexpected(done.error());
   }
   return sum;

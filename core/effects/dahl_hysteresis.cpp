@@ -25,7 +25,7 @@ struct Dahl {
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
-    const double direction = real_part(x.torsion_rate) < 0.0 ? -1.0 : 1.0;
+    const S direction = where_negative(x.torsion_rate, S(-1.0), S(1.0));
     dz[0] = x.torsion_rate / p[1] * (1.0 - z[0] * direction);
   }
 };

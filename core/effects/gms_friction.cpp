@@ -47,8 +47,8 @@ struct MaxwellSlipStribeck {
   template <class S>
   static void rate(const Instant<S>& x, std::span<const S> p, std::span<const S> z,
                    std::span<S> dz) {
-    const double v = real_part(x.motor_speed);
-    const double direction = v < 0.0 ? -1.0 : 1.0;
+    const S& v = x.motor_speed;
+    const S direction = where_negative(v, S(-1.0), S(1.0));
     for (std::size_t k = 0; k < z.size(); ++k) {
       const auto own = p.subspan(k * kGroup, kGroup);
       const S yield = yield_at(x.motor_speed, own);
@@ -61,11 +61,11 @@ struct MaxwellSlipStribeck {
   // From sticking (0) to slipping (1) over the last 1e-6 of the yield: while the yield rises with
   // falling speed an element stays at it, which a switch would chatter around.
   template <class S>
-  static S slips(const S& beyond, const S& yield, double speed) {
-    if (speed == 0.0) return S(0.0);
+  static S slips(const S& beyond, const S& yield, const S& speed) {
     const S share = 1.0 + beyond / (1e-6 * yield);
-    if (real_part(share) <= 0.0) return S(0.0);
-    return real_part(share) >= 1.0 ? S(1.0) : share;
+    const S rising = where_negative(share, S(0.0), share);
+    const S moving = where_negative(S(1.0 - share), S(1.0), rising);
+    return where_negative(S(-magnitude(speed)), moving, S(0.0));
   }
 };
 

@@ -10,9 +10,9 @@ struct TorqueSaturation {
     using std::sqrt;
     const S& torque = x.motor_torque;
     const S square = 3.0 * p[0] * torque * torque;
-    if (real_part(square) < 1.0) return p[0] * torque * torque * torque;
     const S summit = 2.0 / (3.0 * sqrt(3.0 * p[0]));
-    return real_part(torque) < 0.0 ? torque + summit : torque - summit;
+    const S held = where_negative(torque, S(torque + summit), S(torque - summit));
+    return where_negative(S(square - 1.0), S(p[0] * torque * torque * torque), held);
   }
 };
 

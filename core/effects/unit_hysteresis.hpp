@@ -12,7 +12,7 @@ namespace flexspline {
 template <class S>
 S unit_hysteresis_slope(const S& y, const S& n) {
   const S power = positive_power(magnitude(y), n);
-  return real_part(y) < 0.0 ? 1.0 + power : 1.0 - power;
+  return where_negative(y, S(1.0 + power), S(1.0 - power));
 }
 
 /// x since y was 0, by its series in |y|^n, for |y|^n of 0.05 or less.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "flexspline/core/effect_path.hpp"
 #include "rigs/drive_model.hpp"
 
 namespace flexspline {
@@ -52,7 +53,7 @@ class DriveAt {
   S sum(Site site, const Instant<S>& x) const {
     S total(0.0);
     for (const EffectUse& use : model_.effects()) {
-      if (use.row->site == site) total += term(use, x);
+      if (use.site == site) total += term(use, x);
     }
     return total;
   }
@@ -87,7 +88,7 @@ class DriveAt {
   S kinematics_rate(const Instant<S>& rigid) const {
     S total(0.0);
     for (const EffectUse& use : model_.effects()) {
-      if (use.row->site == Site::kinematics) total += kinematic_rate(use, rigid);
+      if (use.site == Site::kinematics) total += kinematic_rate(use, rigid);
     }
     return total;
   }
@@ -147,7 +148,7 @@ class DriveAt {
     for (int k = 0; k < 40; ++k) {
       S added(0.0);
       for (const EffectUse& use : model_.effects()) {
-        if (use.row->site != Site::torque_signal) continue;
+        if (use.site != Site::torque_signal) continue;
         std::vector<S> rates(use.states, S(0.0));
         if (use.states > 0) memory_rate(use, x, rates);
         added += difference(step, [&](double by) { return term_moved(use, x, rates, by); });
@@ -161,7 +162,7 @@ class DriveAt {
   void memory_rates(const Instant<S>& rigid, const Instant<S>& x, std::span<S> rates) const {
     for (const EffectUse& use : model_.effects()) {
       if (use.states == 0) continue;
-      const Instant<S>& seen = use.row->site == Site::kinematics ? rigid : x;
+      const Instant<S>& seen = use.site == Site::kinematics ? rigid : x;
       memory_rate(use, seen, rates.subspan(use.state, use.states));
     }
   }
@@ -174,12 +175,16 @@ class DriveAt {
   }
 
   S term(const EffectUse& use, const Instant<S>& x) const {
-    return functions_at<S>(*use.row).term(x, p_.subspan(use.parameter, use.parameters),
-                                          memory_.subspan(use.state, use.states));
+    const auto parameters = p_.subspan(use.parameter, use.parameters);
+    const auto memory = memory_.subspan(use.state, use.states);
+    const auto term_of = functions_at<S>(*use.row).term;
+    return use.across ? term_of(across_transmission(x), parameters, memory)
+                      : term_of(x, parameters, memory);
   }
 
   void memory_rate(const EffectUse& use, const Instant<S>& x, std::span<S> rates) const {
-    functions_at<S>(*use.row).rate(x, p_.subspan(use.parameter, use.parameters),
+    functions_at<S>(*use.row).rate(use.across ? across_transmission(x) : x,
+                                   p_.subspan(use.parameter, use.parameters),
                                    memory_.subspan(use.state, use.states), rates);
   }
 
@@ -191,7 +196,7 @@ class DriveAt {
     x.*over = 0.5 * whole;
     S slope(0.0);
     for (const EffectUse& use : model_.effects()) {
-      if (use.row->site != site || !(use.*follows)) continue;
+      if (use.site != site || !(use.*follows)) continue;
       slope += difference(angle == &Instant<S>::motor_angle ? 1e-3 : 1e-4, [&](double by) {
         Instant<S> moved = x;
         moved.*angle += S(by);

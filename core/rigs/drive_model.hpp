@@ -13,6 +13,8 @@ namespace flexspline {
 /// An effect of a drive: where its parameters and its memory lie.
 struct EffectUse {
   const EffectRow* row = nullptr;
+  Site site = Site::transmission;
+  bool across = false;  ///< the torsion is its motor
   std::size_t parameter = 0;
   std::size_t parameters = 0;
   std::size_t state = 0;

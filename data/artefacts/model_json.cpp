@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/rig.hpp"
 #include "flexspline/data/estimate_json.hpp"
 
 namespace flexspline::data {
@@ -22,7 +23,10 @@ Json to_json(const EffectSpec& effect) {
   for (const auto& [name, value] : effect.parameters) {
     parameters.push_back({{"name", name}, {"value", value}});
   }
-  return {{"effect", effect.effect}, {"parameters", std::move(parameters)}};
+  Json json = {{"effect", effect.effect}, {"parameters", std::move(parameters)}};
+  if (!effect.note.empty()) json["note"] = effect.note;
+  if (effect.across) json["across"] = true;
+  return json;
 }
 
 LawSpec law_from(const Json& json) {
@@ -38,6 +42,8 @@ LawSpec law_from(const Json& json) {
 EffectSpec effect_from(const Json& json) {
   EffectSpec effect;
   json.at("effect").get_to(effect.effect);
+  effect.note = json.value("note", "");
+  effect.across = json.value("across", false);
   for (const Json& parameter : json.at("parameters")) {
     effect.parameters.emplace_back(parameter.at("name").get<std::string>(),
                                    parameter.at("value").get<double>());
@@ -54,6 +60,16 @@ Json to_json(const ModelSpec& model) {
           {"g_inverse", to_json(model.g_inverse)},
           {"h", to_json(model.h)},
           {"effects", std::move(effects)}};
+}
+
+Json to_json(const RigModel& model) {
+  Json json = to_json(model.drive.torsion);
+  Json rig = {{"rig", name_of(model.rig)}, {"gear_ratio", model.drive.gear_ratio}};
+  for (const DriveConstant& one : rig_row(model.rig).constants) {
+    rig[std::string(one.name)] = model.drive.*one.member;
+  }
+  json["rig"] = std::move(rig);
+  return json;
 }
 
 Result<ModelSpec> model_from_json(const Json& json) {

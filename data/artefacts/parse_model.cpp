@@ -12,18 +12,19 @@
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/nearest_name.hpp"
+#include "flexspline/core/rig.hpp"
 #include "readers/toml_reader.hpp"
 
 namespace flexspline::data {
 namespace {
 
 constexpr std::string_view kSchema = "flexspline-model/1";
-constexpr std::array<std::string_view, 6> kKeys = {"schema",    "note", "f",
+constexpr std::array<std::string_view, 7> kKeys = {"schema",    "note", "rig",   "f",
                                                    "g_inverse", "h",    "effect"};
 constexpr std::array<std::string_view, 5> kLawKeys = {"law", "scale", "knots", "coefficients",
                                                       "valid_to"};
 constexpr std::string_view kUnity = "bounded_modulation";  // without coefficients: h = 1
-constexpr std::array<std::string_view, 2> kEffectKeys = {"effect", "parameters"};
+constexpr std::array<std::string_view, 4> kEffectKeys = {"effect", "note", "across", "parameters"};
 constexpr std::array<std::string_view, 2> kParameterKeys = {"name", "value"};
 
 template <class Row>
@@ -134,7 +135,13 @@ void parse_effects(TomlReader& reader, const toml::array& list, ModelSpec& model
     const EffectRow* row = effect_row(reader, *entry, *id);
     const toml::array none;
     const toml::array* parameters = reader.list(*entry, "parameters");
-    EffectSpec effect{*id, {}};
+    EffectSpec effect{*id, {}, reader.text(*entry, "note").value_or("")};
+    effect.across = reader.truth(*entry, "across").value_or(false);
+    if (effect.across && row != nullptr && row->site != Site::motor && row->site != Site::load) {
+      reader.refuse(entry->get("across")->source(),
+                    fmt::format("'{}' cannot stand across the transmission", *id),
+                    "across is for effects that enter at the motor or the load");
+    }
     if (row != nullptr) {
       parse_parameters(reader, *entry, parameters == nullptr ? none : *parameters, *row, effect);
     }
@@ -142,8 +149,9 @@ void parse_effects(TomlReader& reader, const toml::array& list, ModelSpec& model
   }
 }
 
+/// rigid: a servo's transmission, which needs no law.
 void parse_laws(TomlReader& reader, const toml::table& root, const std::vector<Finding>& errors,
-                ModelSpec& model) {
+                bool rigid, ModelSpec& model) {
   const std::array<std::pair<std::string_view, LawSpec*>, 3> places = {
       {{"f", &model.f}, {"g_inverse", &model.g_inverse}, {"h", &model.h}}};
   for (const auto& [name, law] : places) {
@@ -151,14 +159,53 @@ void parse_laws(TomlReader& reader, const toml::table& root, const std::vector<F
       *law = parse_law(reader, *table, errors);
     } else if (name == "h") {
       law->law = kUnity;
+    } else if (rigid) {
+      *law = rigid_law();
     } else if (!root.contains(name)) {
       reader.refuse(root.source(), fmt::format("no [{}]", name), "a model has f and g_inverse");
     }
   }
 }
 
+std::optional<Rig> parse_bench(TomlReader& reader, const toml::table& table) {
+  const auto name = reader.required_text(table, "rig");
+  if (!name) return std::nullopt;
+  const auto rig = find_rig(*name);
+  if (!rig) {
+    reader.refuse(table.get("rig")->source(), fmt::format("unknown rig '{}'", *name),
+                  suggestion(*name, ids_of(rigs())));
+  }
+  return rig;
+}
+
+std::optional<double> parse_constant(TomlReader& reader, const toml::table& table,
+                                     std::string_view name) {
+  const auto value = reader.number(table, name);
+  if (value && *value < 0.0) {
+    reader.refuse(table.get(name)->source(), fmt::format("{} is {}", name, *value),
+                  "a constant of a rig is not negative");
+  }
+  return value;
+}
+
+/// The bench and its constants; one that the rig does not use is refused.
+void parse_rig(TomlReader& reader, const toml::table& table, RigModel& model) {
+  const auto rig = parse_bench(reader, table);
+  if (!rig) return;
+  model.rig = *rig;
+  std::vector<std::string_view> known = {"rig", "gear_ratio"};
+  for (const DriveConstant& one : rig_row(*rig).constants) known.push_back(one.name);
+  reader.check_keys(table, known);
+  model.drive.gear_ratio = parse_constant(reader, table, "gear_ratio").value_or(1.0);
+  for (const DriveConstant& one : rig_row(*rig).constants) {
+    if (const auto value = parse_constant(reader, table, one.name)) {
+      model.drive.*one.member = *value;
+    }
+  }
+}
+
 void parse_root(TomlReader& reader, const toml::table& root, const std::vector<Finding>& errors,
-                ModelSpec& model) {
+                RigModel& model) {
   const auto schema = reader.required_text(root, "schema");
   if (schema && *schema != kSchema) {
     reader.refuse(root.get("schema")->source(), fmt::format("unknown schema '{}'", *schema),
@@ -166,16 +213,24 @@ void parse_root(TomlReader& reader, const toml::table& root, const std::vector<F
     return;
   }
   reader.check_keys(root, kKeys);
-  parse_laws(reader, root, errors, model);
-  if (const toml::array* list = reader.list(root, "effect")) parse_effects(reader, *list, model);
+  if (const toml::table* table = reader.subtable(root, "rig")) parse_rig(reader, *table, model);
+  ModelSpec& torsion = model.drive.torsion;
+  parse_laws(reader, root, errors, model.rig == Rig::servo, torsion);
+  if (const toml::array* list = reader.list(root, "effect")) parse_effects(reader, *list, torsion);
 }
 
 }  // namespace
 
 Result<ModelSpec> parse_model(std::string_view text, const std::string& file) {
+  auto model = parse_rig_model(text, file);
+  if (!model) return tl::unexpected(model.error());
+  return std::move(model->drive.torsion);
+}
+
+Result<RigModel> parse_rig_model(std::string_view text, const std::string& file) {
   std::vector<Finding> errors;
   TomlReader reader(file, errors);
-  ModelSpec model;
+  RigModel model;
   if (const auto root = reader.parse(text)) parse_root(reader, *root, errors, model);
   if (errors.empty()) return model;
   std::string findings;

@@ -62,6 +62,14 @@ std::optional<double> TomlReader::number(const toml::table& table, std::string_v
   return node == nullptr ? std::nullopt : finite(*node, key);
 }
 
+std::optional<bool> TomlReader::truth(const toml::table& table, std::string_view key) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_boolean()) return value->get();
+  refuse_type(*node, key, "true or false");
+  return std::nullopt;
+}
+
 const toml::table* TomlReader::subtable(const toml::table& table, std::string_view key) {
   const toml::node* node = table.get(key);
   if (node == nullptr) return nullptr;

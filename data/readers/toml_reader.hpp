@@ -31,6 +31,7 @@ class TomlReader {
   /// The value of a key; nothing when it is absent or, with a finding, of another type.
   std::optional<std::string> text(const toml::table& table, std::string_view key);
   std::optional<double> number(const toml::table& table, std::string_view key);
+  std::optional<bool> truth(const toml::table& table, std::string_view key);
   const toml::table* subtable(const toml::table& table, std::string_view key);
   const toml::array* list(const toml::table& table, std::string_view key);
 

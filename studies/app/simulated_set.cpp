@@ -3,7 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "flexspline/core/simulate.hpp"
+#include "flexspline/core/simulate_rig.hpp"
 #include "flexspline/core/torsion_record.hpp"
 
 namespace flexspline::app {
@@ -65,6 +68,28 @@ Result<std::vector<Excitation>> excitations_like(const RecordingSet& set) {
                            std::move(smooth->motion), std::move(smooth->effort)});
   }
   return excitations;
+}
+
+Result<RecordingSet> simulate_rig_set(const RigModel& model, const RecordingSet& like,
+                                      Direction direction) {
+  if (like.rig != model.rig) {
+    return failure(ErrorCode::bad_data,
+                   fmt::format("the model is of the {} rig, the data set of the {} rig",
+                               name_of(model.rig), name_of(like.rig)),
+                   "simulate it like a data set of its own rig");
+  }
+  RecordingSet set = like;
+  set.name = "simulated";
+  set.license = "CC0-1.0";
+  set.source = "flexspline simulate";
+  for (Recording& one : set.recordings) {
+    auto simulated =
+        direction == Direction::torque ? torques_along(model, one) : motions_under(model, one);
+    if (!simulated) return tl::unexpected(in_context(simulated.error(), "recording " + one.id));
+    for (auto& [quantity, channel] : simulated->channels) one.channels[quantity] = channel;
+    one.excitation = "simulated";
+  }
+  return set;
 }
 
 Result<RecordingSet> simulate_set(const ModelSpec& model,

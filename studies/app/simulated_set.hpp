@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "flexspline/core/drive_spec.hpp"
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/model_spec.hpp"
 #include "flexspline/core/recording.hpp"
@@ -34,5 +35,11 @@ Result<std::vector<Excitation>> excitations_like(const RecordingSet& set);
 Result<RecordingSet> simulate_set(const ModelSpec& model,
                                   const std::vector<Excitation>& excitations, Direction direction,
                                   const DisplayUnits& units);
+
+/// The whole rig of a model in the recordings of a set, with the rig's constants: torques along the
+/// motion, or with Direction::torsion the motions under what drives it.
+/// Errors: a set of another rig; what the simulation refuses, with the recording's id.
+Result<RecordingSet> simulate_rig_set(const RigModel& model, const RecordingSet& like,
+                                      Direction direction);
 
 }  // namespace flexspline::app

@@ -125,10 +125,9 @@ BaselineColumns motor_columns(const Frame& frame) {
   BaselineColumns c{MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1,
                     n};
   c.columns.col(0) = frame.motor_speed;
+  const auto widths = dry_widths(frame);
   for (Index k = 0; k < n; ++k) {
-    const double width = frame.speed_range * kNarrowest *
-                         std::pow(kWidest / kNarrowest, static_cast<double>(k) / (n - 1.0));
-    c.columns.col(1 + k) = (frame.motor_speed / width).tanh();
+    c.columns.col(1 + k) = (frame.motor_speed / widths[static_cast<std::size_t>(k)]).tanh();
   }
   if (load > 0) {
     c.columns.col(1 + n) = frame.gravity;
@@ -138,6 +137,15 @@ BaselineColumns motor_columns(const Frame& frame) {
 }
 
 }  // namespace
+
+std::vector<double> dry_widths(const Frame& frame) {
+  std::vector<double> widths;
+  for (Index k = 0; k < kDryWidths; ++k) {
+    widths.push_back(frame.speed_range * kNarrowest *
+                     std::pow(kWidest / kNarrowest, static_cast<double>(k) / (kDryWidths - 1.0)));
+  }
+  return widths;
+}
 
 double coulomb_width(const Frame& frame, std::span<const double> shape) {
   if (frame.travels) return std::exp(shape[0]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,10 @@ Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
 
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape);
+
+/// Widths of the tanh that the motor's dry friction is a mixture of, in the order of its columns,
+/// rad/s.
+std::vector<double> dry_widths(const Frame& frame);
 
 /// Rate below which dry friction across the gear is rounded off.
 double coulomb_width(const Frame& frame, std::span<const double> shape);

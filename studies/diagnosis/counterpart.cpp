@@ -23,10 +23,4 @@ std::vector<EffectSpec> by_sign_part(const FittedCause& fitted, std::string_view
   return effects;
 }
 
-std::string speed_caveat(const Frame& frame) {
-  if (frame.rig == Rig::specimen) return {};
-  return "its speed is the torsion's rate, as simulate reads it from a torsion; at a motor it "
-         "would be another friction";
-}
-
 }  // namespace flexspline::studies

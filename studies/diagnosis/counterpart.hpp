@@ -31,6 +31,8 @@ struct FittedCause {
 /// What a cause is in a model file.
 struct Counterpart {
   std::vector<EffectSpec> effects = {};
+  double motor_inertia = 0.0;  ///< added to the rig's, kg m2
+  double load_inertia = 0.0;
   double law_factor = 1.0;       ///< on f and g^-1, which had taken a gain up
   double side_difference = 0.0;  ///< g^-1 is 1 + this forward and 1 - this backward
   /// Of the torsion, where f alone sees less of it.
@@ -52,8 +54,5 @@ std::vector<std::pair<std::string, double>> harmonic(double order, double s, dou
 std::vector<EffectSpec> by_sign_part(
     const FittedCause& fitted, std::string_view effect,
     const std::function<std::vector<std::pair<std::string, double>>(double, double)>& parameters);
-
-/// Said where a friction across the transmission stands as one at the motor.
-std::string speed_caveat(const Frame& frame);
 
 }  // namespace flexspline::studies

@@ -48,6 +48,16 @@ Verdict verdict_of(const Frame& frame, const Selection& s, const Diagnosis& d,
   return left ? Verdict::partly_explained : Verdict::explained;
 }
 
+/// What a model file says of causes that are in the model, but too small to be named.
+std::vector<std::string> remarks_on(const Selection& s) {
+  std::vector<std::string> remarks;
+  for (const Accepted& small : s.immaterial) {
+    remarks.push_back(
+        fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
+  }
+  return remarks;
+}
+
 void say_one_loop(const Frame& frame, Diagnosis& d) {
   d.next_experiment = another_rate(frame);
   std::string says = "Cannot be decided with these data: ";
@@ -144,7 +154,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   const auto judged = judge_held_out(all, holdout, *finding, d);
   if (!judged) return tl::unexpected(judged.error());
   d.verdict = verdict_of(frame, selection, d, limits);
-  auto specification = specify(frame, selection.final.fit.model);
+  auto specification = specify(frame, selection.final.fit.model, remarks_on(selection));
   d.model = std::move(specification.model);
   d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
   d.causes = spelled_causes(frame, selection, proof);

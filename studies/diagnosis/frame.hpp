@@ -32,6 +32,10 @@ struct Frame {
   double ratio = 1.0;
   double motor_inertia = 0.0;
   double load_inertia = 0.0;
+  double load_mass = 0.0;  ///< of a servo's pendulum and its arm, as the set states them; else 0
+  double arm_length = 0.0;
+  /// What of a servo's motor is recorded; duty_cycle: with the supply, a voltage.
+  Quantity drives = Quantity::motor_torque;
   bool travels = false;      ///< an angle that travels: f is a free function of it
   bool own_zeros = false;    ///< every recording has a zero of its own
   bool firm_spring = false;  ///< f is nowhere much softer than in the mean

@@ -91,6 +91,8 @@ class FrameMaker {
     frame_.ratio = constant(set, "gear_ratio", 1.0);
     frame_.motor_inertia = constant(set, "motor_inertia_kgm2", 0.0);
     frame_.load_inertia = constant(set, "load_inertia_kgm2", 0.0);
+    frame_.load_mass = constant(set, "load_mass_kg", 0.0);
+    frame_.arm_length = constant(set, "arm_length_m", 0.0);
     for (ArrayXd* channel : all()) channel->setZero(rows);
   }
 
@@ -98,6 +100,11 @@ class FrameMaker {
     const Index n = static_cast<Index>(c.recording->time.size());
     const Index count = (n + stride - 1) / stride;
     const DriveChannels& d = c.drive;
+    for (Quantity one : {Quantity::motor_torque, Quantity::current, Quantity::duty_cycle}) {
+      if (c.recording->find(one) == nullptr) continue;
+      frame_.drives = one;
+      break;
+    }
     const auto put = [&](ArrayXd& to, const Series& from) { append(to, at_, count, from, stride); };
     put(frame_.time, d.time);
     frame_.clock.segment(at_, count) =

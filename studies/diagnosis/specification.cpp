@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "diagnosis/baseline.hpp"
+#include "diagnosis/cancelling.hpp"
 #include "diagnosis/law_fit.hpp"
+#include "diagnosis/rig_constants.hpp"
 #include "flexspline/core/effect.hpp"
-#include "flexspline/core/effect_dependence.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -45,42 +45,34 @@ std::string out_of_range(const EffectSpec& spec) {
   return {};
 }
 
-/// Whether it needs a motion that a torsion alone does not tell.
-bool needs_shafts(const EffectSpec& spec, const CauseForm& form) {
-  if (std::ranges::count(form.at, Equation::torsion) == 0) return true;
-  const auto row = find_effect(spec.effect);
-  const auto values = row ? parameter_values(**row, spec) : Result<std::vector<double>>{};
-  if (!row || !values) return false;
-  if ((*row)->site == Site::load_angle_signal || (*row)->site == Site::motor_angle_signal) {
-    return true;
-  }
-  return depends_on(**row, *values, &Instant<Complex>::motor_angle) ||
-         depends_on(**row, *values, &Instant<Complex>::load_angle);
-}
-
 /// Puts the causes of a model into effects, one after another.
 class Specifier {
  public:
-  Specifier(const Frame& frame, const DriveModel& model)
+  Specifier(const Frame& frame, const DriveModel& model, const std::vector<std::string>& remarks)
       : frame_(frame),
         model_(model),
+        remarks_(remarks),
         seen_(seen_by_the_laws(frame, model)),
-        reference_(reference_of(frame, model)) {
-    slipping_ = (reference_.friction - reference_.dissipative).abs().maxCoeff();
+        reference_(reference_of(frame, model)),
+        constants_(rig_constants(seen_, model)) {
+    if (frame.has(Equation::torsion)) {
+      slipping_ = (reference_.friction - reference_.dissipative).abs().maxCoeff();
+    }
     if (frame.has(Equation::motor)) sign_ = sign_parts(seen_, reference_.motor_sign);
   }
 
   Specification specify() {
+    rig_ = {frame_.rig, constants_.drive};
+    const auto refused = cancelling(frame_, model_, reference_);
+    for (const Cancelling& pair : refused) say("model.toml lacks {}", in_words(model_, pair));
     for (std::size_t i = 0; i < model_.causes.size(); ++i) {
-      add(model_.causes[i], model_.coefficients[i]);
+      if (std::ranges::none_of(refused, [&](const Cancelling& pair) { return pair.has(i); }))
+        add(i);
     }
     put_laws();
-    if (!shafts_.empty() && frame_.rig != Rig::specimen) {
-      say("model.toml: simulate runs the torsion law alone; {} need the motions of motor and load, "
-          "which only a simulation of the rig has",
-          fmt::join(shafts_, ", "));
-    }
-    return {std::move(spec_), std::move(notes_)};
+    auto& effects = constants_.drive.torsion.effects;
+    spec().effects.insert(spec().effects.begin(), effects.begin(), effects.end());
+    return {std::move(rig_), std::move(notes_)};
   }
 
  private:
@@ -89,39 +81,78 @@ class Specifier {
     notes_.push_back(fmt::format(text, std::forward<Args>(args)...));
   }
 
-  void add(const ActiveCause& cause, const Eigen::VectorXd& coefficients) {
+  ModelSpec& spec() { return rig_.drive.torsion; }
+
+  void leave_out(const ActiveCause& cause, std::string_view why) {
+    say("model.toml lacks {} ({}): {}", cause.row->id, cause.form->equation, why);
+  }
+
+  void add(std::size_t i) {
+    const ActiveCause& cause = model_.causes[i];
     const CauseForm& form = *cause.form;
     if (form.counterpart == nullptr) {
-      say("model.toml lacks {} ({}): {}", cause.row->id, form.equation,
-          form.no_counterpart.empty() ? "the catalogue of effects has nothing like it"
-                                      : form.no_counterpart);
+      leave_out(cause, form.no_counterpart.empty() ? "the catalogue of effects has nothing like it"
+                                                   : form.no_counterpart);
       return;
     }
+    const Eigen::VectorXd coefficients =
+        constants_.in_torque(seen_, cause, model_.coefficients[i], reference_);
     Counterpart counterpart = form.counterpart(
         {seen_, cause.shape, coefficients, sign_, reference_.torsion_coulomb_rate, slipping_});
     for (const EffectSpec& effect : counterpart.effects) {
       const std::string why = out_of_range(effect);
       if (why.empty()) continue;
-      say("model.toml lacks {} ({}): {}", cause.row->id, form.equation, why);
+      leave_out(cause, why);
       return;
     }
+    if (!add_inertia(cause, counterpart)) return;
+    if (i < remarks_.size() && !remarks_[i].empty()) {
+      for (EffectSpec& effect : counterpart.effects) effect.note = remarks_[i];
+      say("model.toml holds {}: {}", cause.row->id, remarks_[i]);
+    }
     take(cause, std::move(counterpart));
+  }
+
+  /// False, and a note, where nothing would be left of an inertia.
+  bool add_inertia(const ActiveCause& cause, const Counterpart& counterpart) {
+    DriveSpec& drive = rig_.drive;
+    const double motor = drive.motor_inertia + counterpart.motor_inertia;
+    const double load = drive.load_inertia + counterpart.load_inertia;
+    const bool motor_lost = counterpart.motor_inertia < 0.0 && !(motor > 0.0);
+    if (motor_lost || (counterpart.load_inertia < 0.0 && !(load > 0.0))) {
+      leave_out(cause, fmt::format("it would leave an inertia of {:.3g} kg m2",
+                                   motor_lost ? motor : load));
+      return false;
+    }
+    drive.motor_inertia = motor;
+    drive.load_inertia = load;
+    return true;
   }
 
   void take(const ActiveCause& cause, Counterpart counterpart) {
     if (!counterpart.caveat.empty()) say("model.toml: {}: {}", cause.row->id, counterpart.caveat);
     for (EffectSpec& effect : counterpart.effects) {
-      if (needs_shafts(effect, *cause.form) && !std::ranges::count(shafts_, effect.effect)) {
-        shafts_.push_back(effect.effect);
-      }
-      spec_.effects.push_back(std::move(effect));
+      effect.across = stands_across(cause, effect);
+      spec().effects.push_back(std::move(effect));
     }
     factor_ *= counterpart.law_factor;
     difference_ += counterpart.side_difference;
     if (counterpart.spring_sees) spring_sees_ = counterpart.spring_sees;
   }
 
+  /// A friction of the torsion equation that the catalogue has at the motor.
+  bool stands_across(const ActiveCause& cause, const EffectSpec& effect) const {
+    const auto row = find_effect(effect.effect);
+    return frame_.rig != Rig::specimen && row && (*row)->site == Site::motor &&
+           first_equation(frame_, *cause.form) == Equation::torsion;
+  }
+
   void put_laws() {
+    if (!frame_.has(Equation::torsion)) {
+      spec().f = spec().g_inverse = rigid_law();
+      spec().h = {.law = "bounded_modulation", .scale = 1.0, .knots = {}, .coefficients = {}};
+      return;
+    }
     const Eigen::VectorXd& own = model_.own[index_of(Equation::torsion)];
     const auto columns = baseline_columns(seen_, Equation::torsion, model_.torsion_shape);
     if (frame_.travels) {
@@ -129,7 +160,7 @@ class Specifier {
     } else {
       put_gear_laws(own, columns.elastic + columns.dissipative);
     }
-    for (LawSpec* law : {&spec_.f, &spec_.g_inverse}) {
+    for (LawSpec* law : {&spec().f, &spec().g_inverse}) {
       for (double& c : law->coefficients) c *= factor_;
     }
   }
@@ -143,20 +174,20 @@ class Specifier {
       if (error < kWorthSaying) continue;
       say("model.toml: {} is within {:.2g} % of what was fitted", name, 100.0 * error);
     }
-    spec_.f = std::move(f.law);
-    spec_.g_inverse = std::move(g.law);
-    spec_.h = modulation_law(seen_, shape, range, spring_sees_);
+    spec().f = std::move(f.law);
+    spec().g_inverse = std::move(g.law);
+    spec().h = modulation_law(seen_, shape, range, spring_sees_);
     split_sides();
     if (shape[2] != 0.0) {
-      spec_.effects.push_back({"torsion_zero", {{"zero", shape[2] * seen_.torsion_range}}});
+      spec().effects.push_back({"torsion_zero", {{"zero", shape[2] * seen_.torsion_range}}});
     }
     if (own.size() > laws)
-      spec_.effects.push_back({"torque_sensor_offset", {{"offset", own[laws]}}});
+      spec().effects.push_back({"torque_sensor_offset", {{"offset", own[laws]}}});
   }
 
   void split_sides() {
     if (difference_ == 0.0) return;
-    auto& both = spec_.g_inverse.coefficients;
+    auto& both = spec().g_inverse.coefficients;
     const std::vector<double> odd = both;
     for (double& c : both) c *= 1.0 + difference_;
     for (double c : odd) both.push_back((1.0 - difference_) * c);
@@ -164,32 +195,33 @@ class Specifier {
 
   // Dry friction as an effect, what grows with the rate as g^-1.
   void put_travelling_laws(const Eigen::VectorXd& own, Index travel) {
-    spec_.f = {.law = "free_spline",
-               .scale = 1.0,
-               .knots = {seen_.torsion.minCoeff(), seen_.torsion.maxCoeff()},
-               .coefficients = {own.begin(), own.begin() + travel},
-               .valid_to = seen_.torsion_range};
-    spec_.g_inverse = {.law = "odd_polynomial",
-                       .scale = seen_.rate_range,
-                       .knots = {},
-                       .coefficients = {own[travel + 1]},
-                       .valid_to = seen_.rate_range};
-    spec_.h = {.law = "bounded_modulation", .scale = 1.0, .knots = {}, .coefficients = {}};
-    spec_.effects.push_back({"coulomb_viscous_friction",
-                             {{"coulomb", own[travel]},
-                              {"viscous", 0.0},
-                              {"smoothing", reference_.torsion_coulomb_rate}}});
+    spec().f = {.law = "free_spline",
+                .scale = 1.0,
+                .knots = {seen_.torsion.minCoeff(), seen_.torsion.maxCoeff()},
+                .coefficients = {own.begin(), own.begin() + travel},
+                .valid_to = seen_.torsion_range};
+    spec().g_inverse = {.law = "odd_polynomial",
+                        .scale = seen_.rate_range,
+                        .knots = {},
+                        .coefficients = {own[travel + 1]},
+                        .valid_to = seen_.rate_range};
+    spec().h = {.law = "bounded_modulation", .scale = 1.0, .knots = {}, .coefficients = {}};
+    spec().effects.push_back({"coulomb_viscous_friction",
+                              {{"coulomb", own[travel]},
+                               {"viscous", 0.0},
+                               {"smoothing", reference_.torsion_coulomb_rate}}});
   }
 
   const Frame& frame_;
   const DriveModel& model_;
+  const std::vector<std::string>& remarks_;
   Frame seen_;
   Reference reference_;
+  RigConstants constants_;
   double slipping_ = 0.0;
   std::vector<SignPart> sign_;
-  ModelSpec spec_;
+  RigModel rig_;
   std::vector<std::string> notes_;
-  std::vector<std::string> shafts_;
   double factor_ = 1.0;
   double difference_ = 0.0;
   std::function<double(double)> spring_sees_;
@@ -197,13 +229,9 @@ class Specifier {
 
 }  // namespace
 
-Specification specify(const Frame& frame, const DriveModel& model) {
-  if (!frame.has(Equation::torsion)) {
-    return {std::nullopt,
-            {"there is no model.toml: a model file holds the torsion law, which needs a torque "
-             "across the transmission"}};
-  }
-  return Specifier(frame, model).specify();
+Specification specify(const Frame& frame, const DriveModel& model,
+                      const std::vector<std::string>& remarks) {
+  return Specifier(frame, model, remarks).specify();
 }
 
 }  // namespace flexspline::studies

@@ -42,13 +42,8 @@ Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
   const auto written =
       data::write_artefact(folder / "diagnosis.json", diagnosis_artefact(diagnosis));
   if (!written) return tl::unexpected(written.error());
-  if (diagnosis.model) {
-    const auto model = data::write_model(folder / "model.toml", *diagnosis.model);
-    if (!model) return tl::unexpected(model.error());
-  } else {
-    std::error_code ignored;  // a model of an earlier run would contradict this one
-    std::filesystem::remove(folder / "model.toml", ignored);
-  }
+  const auto model = data::write_model(folder / "model.toml", diagnosis.model);
+  if (!model) return tl::unexpected(model.error());
   return reports::write_report(folder);
 }
 

@@ -12,6 +12,7 @@
 #include "flexspline/core/nearest_name.hpp"
 #include "flexspline/core/rig.hpp"
 #include "flexspline/data/bench.hpp"
+#include "flexspline/data/exporter.hpp"
 #include "flexspline/estimators/method.hpp"
 #include "flexspline/studies/kind.hpp"
 #include "flexspline/studies/metric.hpp"
@@ -114,6 +115,16 @@ ordered_json list_truths() {
   return list;
 }
 
+ordered_json list_exporters() {
+  ordered_json list = ordered_json::array();
+  for (const data::ExporterRow& row : data::exporters()) {
+    list.push_back({{"id", row.id},
+                    {"says", fmt::format("{}; carries {}; not carried: {}", row.says, row.carries,
+                                         row.not_carried)}});
+  }
+  return list;
+}
+
 struct Catalogue {
   std::string_view name;
   ordered_json (*rows)();
@@ -122,7 +133,7 @@ struct Catalogue {
 constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_laws},
                                      {"rigs", list_rigs},       {"estimators", list_estimators},
                                      {"kinds", list_kinds},     {"metrics", list_metrics},
-                                     {"truths", list_truths}};
+                                     {"truths", list_truths},   {"exporters", list_exporters}};
 
 Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder,
                              Console& console) {
@@ -154,9 +165,11 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_list() {
   return {.id = "list",
-          .summary = "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths",
+          .summary =
+              "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths, exporters",
           .arguments = {{.name = "catalogue",
-                         .meaning = "effects, laws, rigs, estimators, kinds, metrics or truths",
+                         .meaning =
+                             "effects, laws, rigs, estimators, kinds, metrics, truths or exporters",
                          .value = "CATALOGUE",
                          .required = true},
                         {.name = "--pages",

@@ -43,23 +43,29 @@ Result<std::vector<Excitation>> sine(const Arguments& arguments, Direction direc
   return std::vector{sine_excitation(*amplitude, *frequency, *cycles, *samples, direction)};
 }
 
+/// A model with a table [rig] simulates that rig; one without, the torsion law.
+Result<RecordingSet> simulated(const RigModel& model, const Arguments& arguments,
+                               Direction direction) {
+  const ModelSpec& torsion = model.drive.torsion;
+  if (!arguments.has("like")) {
+    const auto excitations = sine(arguments, direction);
+    if (!excitations) return tl::unexpected(excitations.error());
+    return simulate_set(torsion, *excitations, direction, {});
+  }
+  const auto set = data::load_dataset(arguments.text("like"));
+  if (!set) return tl::unexpected(set.error());
+  if (model.rig != Rig::specimen) return simulate_rig_set(model, *set, direction);
+  const auto excitations = excitations_like(*set);
+  if (!excitations) return tl::unexpected(excitations.error());
+  return simulate_set(torsion, *excitations, direction, set->display);
+}
+
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto direction = direction_of(arguments);
   if (!direction) return tl::unexpected(direction.error());
-  const auto model = data::read_model(arguments.text("model"));
+  const auto model = data::read_rig_model(arguments.text("model"));
   if (!model) return tl::unexpected(model.error());
-  DisplayUnits units;
-  Result<std::vector<Excitation>> excitations = std::vector<Excitation>{};
-  if (arguments.has("like")) {
-    const auto set = data::load_dataset(arguments.text("like"));
-    if (!set) return tl::unexpected(set.error());
-    units = set->display;
-    excitations = excitations_like(*set);
-  } else {
-    excitations = sine(arguments, *direction);
-  }
-  if (!excitations) return tl::unexpected(excitations.error());
-  const auto set = simulate_set(*model, *excitations, *direction, units);
+  const auto set = simulated(*model, arguments, *direction);
   if (!set) return tl::unexpected(set.error());
   const std::string folder = arguments.text("out");
   const auto written = data::write_dataset(folder, *set);

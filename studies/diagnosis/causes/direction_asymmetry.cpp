@@ -51,8 +51,7 @@ Counterpart gear_halves(const FittedCause& c) {
                     {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
                     {"smoothing",
                      c.slipping > 0.0 ? c.torsion_coulomb_rate : 1e-6 * c.frame.rate_range}}}},
-      .side_difference = c.coefficients[0],
-      .caveat = speed_caveat(c.frame)};
+      .side_difference = c.coefficients[0]};
   if (c.slipping > 0.0) {
     counterpart.caveat =
         "the difference of what slips builds up with the way, in the model file with the speed";
@@ -64,8 +63,7 @@ Counterpart dry_halves(const FittedCause& c) {
   return {.effects = {{"direction_asymmetry",
                        {{"coulomb_difference", c.coefficients[0]},
                         {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
-                        {"smoothing", c.shape[0]}}}},
-          .caveat = speed_caveat(c.frame)};
+                        {"smoothing", c.shape[0]}}}}};
 }
 
 std::vector<Term> dry_terms(const Frame&) {

@@ -44,7 +44,9 @@ Counterpart as_carried(const FittedCause& c) {
                        {{"inertia", c.coefficients[0]}, {"time_constant", c.shape[0]}}}}};
 }
 
-constexpr std::string_view kConstant = "a rig's inertias are its constants, not effects of a model";
+Counterpart at_load(const FittedCause& c) { return {.load_inertia = c.coefficients[0]}; }
+
+Counterpart at_motor(const FittedCause& c) { return {.motor_inertia = c.coefficients[0]}; }
 
 constexpr std::string_view kNotOfLoad =
     "the catalogue of effects has an inertia before the sensor only where the torsion moves it";
@@ -87,13 +89,13 @@ CauseRow describe_inertia_torque() {
                      .at = {Equation::load},
                      .terms = terms,
                      .columns = of_load,
-                     .no_counterpart = kConstant},
+                     .counterpart = at_load},
                     {.equation = "tau_f += J theta_m''",
                      .rigs = kDrives,
                      .at = {Equation::motor},
                      .terms = terms,
                      .columns = of_motor,
-                     .no_counterpart = kConstant}}};
+                     .counterpart = at_motor}}};
 }
 
 }  // namespace flexspline::studies

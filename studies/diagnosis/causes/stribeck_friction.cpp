@@ -62,8 +62,7 @@ Counterpart gear_peak(const FittedCause& c) {
                        {{"excess", c.coefficients[0]},
                         {"stribeck_speed", c.shape[0]},
                         {"exponent", c.shape[1]},
-                        {"smoothing", width}}}},
-          .caveat = speed_caveat(c.frame)};
+                        {"smoothing", width}}}}};
 }
 
 std::vector<Term> terms(const Frame&) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flexspline/core/model_spec.hpp"
+#include "flexspline/core/recording.hpp"
 
 namespace flexspline {
 
@@ -38,6 +39,12 @@ struct DriveSpec {
   double inductance = 0.0;       ///< L, H
   double back_emf = 0.0;         ///< ke, V s/rad
   PositionLoop position_loop{};
+};
+
+/// A drive and the bench it stands in: all that a simulation needs beside its inputs.
+struct RigModel {
+  Rig rig = Rig::specimen;
+  DriveSpec drive;
 };
 
 /// A constant of the drive that may be a parameter of a simulation.

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "flexspline/core/error.hpp"
@@ -78,6 +79,7 @@ struct EffectRow {
   EffectFunctions<double> real{};
   EffectFunctions<Dual> dual{};
   EffectFunctions<Complex> complex{};
+  EffectFunctions<Traced> traced{};  ///< term and rate, from which code is written
   /// For effects of a whole signal (delay, lag, quantisation) instead of a term: maps what the
   /// site's channel shows, in place.
   void (*map)(std::span<const double> time, std::span<double> signal,
@@ -90,7 +92,7 @@ template <class Law, class S>
 EffectFunctions<S> functions_of() {
   EffectFunctions<S> functions;
   functions.term = &Law::template term<S>;
-  if constexpr (requires { &Law::template advance<S>; })
+  if constexpr (!std::is_same_v<S, Traced> && requires { &Law::template advance<S>; })
     functions.advance = &Law::template advance<S>;
   if constexpr (requires { &Law::template rate<S>; }) functions.rate = &Law::template rate<S>;
   return functions;
@@ -101,6 +103,7 @@ void instantiate(EffectRow& row) {
   row.real = functions_of<Law, double>();
   row.dual = functions_of<Law, Dual>();
   row.complex = functions_of<Law, Complex>();
+  row.traced = functions_of<Law, Traced>();
 }
 
 /// Every effect, one file each in core/effects.

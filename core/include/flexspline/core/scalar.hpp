@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "flexspline/core/dual.hpp"
+#include "flexspline/core/traced.hpp"
 
 namespace flexspline {
 
@@ -20,6 +21,12 @@ inline double real_part(const Complex& x) { return x.real(); }
 template <class S>
 S magnitude(const S& x) {
   return real_part(x) < 0.0 ? -x : x;
+}
+
+/// then where x < 0, otherwise elsewhere: a branch for laws that are also traced.
+template <class S>
+S where_negative(const S& x, const S& then, const S& otherwise) {
+  return real_part(x) < 0.0 ? then : otherwise;
 }
 
 template <class S>

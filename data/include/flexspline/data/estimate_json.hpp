@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "flexspline/core/drive_spec.hpp"
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/estimate.hpp"
 #include "flexspline/core/model_spec.hpp"
@@ -16,6 +17,9 @@ nlohmann::ordered_json to_json(const Estimate& estimate, const DisplayUnits& uni
 
 /// A model with every number of it, SI.
 nlohmann::ordered_json to_json(const ModelSpec& model);
+
+/// The same with "rig": its id, gear_ratio and constants.
+nlohmann::ordered_json to_json(const RigModel& model);
 
 /// The inverse of to_json, exact to the last bit.
 /// Errors: bad_data for a key that is missing or a number that is null.

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "flexspline/core/drive_spec.hpp"
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/estimate.hpp"
-#include "flexspline/core/model_spec.hpp"
 #include "flexspline/core/recording.hpp"
 #include "flexspline/data/sanity.hpp"
 
@@ -152,7 +152,7 @@ struct Diagnosis {
   std::vector<DiagnosedSeries> series;
   std::vector<std::string> notes;
   std::vector<data::SanityFinding> mistaken;  ///< what looks like a mistake, not like physics
-  std::optional<ModelSpec> model;  ///< the baseline with the accepted effects, where there is one
+  RigModel model;  ///< the whole rig: its constants, the baseline and the accepted effects
   DisplayUnits display;
   double seconds = kNotComputed;
 };

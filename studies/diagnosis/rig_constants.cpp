@@ -1,0 +1,107 @@
+#include "diagnosis/rig_constants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/baseline.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+void put_dry_friction(const Frame& frame, const VectorXd& heights, DriveSpec& drive) {
+  const auto widths = dry_widths(frame);
+  Index largest = 0;
+  if (!(heights.maxCoeff(&largest) > 0.0)) return;
+  drive.motor_coulomb = heights[largest];
+  drive.coulomb_width = widths[static_cast<std::size_t>(largest)];
+  for (Index k = 0; k < heights.size(); ++k) {
+    if (k == largest || !(heights[k] > 0.0)) continue;
+    drive.torsion.effects.push_back(
+        {"coulomb_viscous_friction",
+         {{"coulomb", heights[k]},
+          {"viscous", 0.0},
+          {"smoothing", widths[static_cast<std::size_t>(k)]}},
+         "part of the dry friction, which rises over several widths of speed"});
+  }
+}
+
+// N K c_a = N^2 J1 + J2 with a point mass as J2 as far as it goes.
+void put_load(const Frame& frame, double weight, double inertia, DriveSpec& drive) {
+  const bool known = frame.load_mass > 0.0 && frame.arm_length > 0.0;
+  drive.arm_length = known ? frame.arm_length : 1.0;
+  drive.load_mass = frame.ratio * weight * (known ? frame.load_mass : 1.0);
+  const double all = frame.ratio * inertia;
+  drive.load_inertia = std::min(all, drive.load_mass * drive.arm_length * drive.arm_length);
+  drive.motor_inertia = (all - drive.load_inertia) / (frame.ratio * frame.ratio);
+}
+
+// What a servo's motor is fed with becomes a torque; kt and R of a unit winding where it is a
+// voltage, whose back-EMF the viscous friction holds.
+void put_feed(const Frame& frame, double torque_of_recorded, DriveSpec& drive) {
+  if (frame.drives == Quantity::motor_torque) {
+    if (torque_of_recorded == 1.0) return;
+    drive.torsion.effects.push_back(
+        {"torque_constant_error", {{"error", torque_of_recorded - 1.0}}, "from the known weight"});
+    return;
+  }
+  drive.torque_constant = torque_of_recorded;
+  if (frame.drives == Quantity::duty_cycle) drive.resistance = 1.0;
+}
+
+/// 1 where no weight is known, or one that the recordings do not bear out.
+double torque_of_recorded(const Frame& frame, double weight) {
+  if (!(frame.load_mass > 0.0 && frame.arm_length > 0.0 && weight > 0.0)) return 1.0;
+  const double nm = 1.0 / (frame.ratio * weight);
+  return frame.drives == Quantity::motor_torque && std::abs(nm - 1.0) > 0.5 ? 1.0 : nm;
+}
+
+double norm_of(const Frame& frame, const ActiveCause& cause, const Reference& reference,
+               std::size_t k) {
+  return cause.form->columns(Equation::motor, frame, reference, cause.shape)[k].matrix().norm();
+}
+
+}  // namespace
+
+RigConstants rig_constants(const Frame& frame, const DriveModel& model) {
+  RigConstants constants;
+  DriveSpec& drive = constants.drive;
+  drive.gear_ratio = frame.ratio;
+  drive.motor_inertia = frame.motor_inertia;
+  drive.load_inertia = frame.load_inertia;
+  if (frame.has(Equation::load)) drive.load_viscous = model.own[index_of(Equation::load)][0];
+  if (!frame.has(Equation::motor)) return constants;
+  VectorXd own = model.own[index_of(Equation::motor)];
+  const Index dry = static_cast<Index>(dry_widths(frame).size());
+  if (frame.rig == Rig::servo) {
+    constants.torque_of_recorded = torque_of_recorded(frame, own[1 + dry]);
+    own *= constants.torque_of_recorded;
+    put_load(frame, own[1 + dry], own[2 + dry], drive);
+    put_feed(frame, constants.torque_of_recorded, drive);
+  }
+  drive.motor_viscous = own[0];
+  put_dry_friction(frame, own.segment(1, dry), drive);
+  return constants;
+}
+
+// A column that grows with the recorded torque needs no factor, one that does not needs it whole.
+VectorXd RigConstants::in_torque(const Frame& frame, const ActiveCause& cause,
+                                 const VectorXd& coefficients, const Reference& reference) const {
+  if (torque_of_recorded == 1.0 || cause.form->columns == nullptr) return coefficients;
+  Frame scaled = frame;
+  scaled.motor_torque *= torque_of_recorded;
+  scaled.smooth_motor_torque *= torque_of_recorded;
+  scaled.motor_torque_rate *= torque_of_recorded;
+  VectorXd in_nm = coefficients;
+  for (Index k = 0; k < in_nm.size(); ++k) {
+    const auto column = static_cast<std::size_t>(k);
+    const double now = norm_of(scaled, cause, reference, column);
+    if (!(now > 0.0)) continue;
+    in_nm[k] *= torque_of_recorded * norm_of(frame, cause, reference, column) / now;
+  }
+  return in_nm;
+}
+
+}  // namespace flexspline::studies

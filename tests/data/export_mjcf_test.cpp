@@ -1,0 +1,126 @@
+// The joint that is written, simulated by MuJoCo itself under node, against our own simulation.
+#include <nlohmann/json.hpp>
+
+#include "export_fixture.hpp"
+#include "flexspline/core/simulate_rig.hpp"
+#include "source_dir.hpp"
+
+namespace flexspline::data {
+namespace {
+
+const std::filesystem::path kSource = FLEXSPLINE_SOURCE_DIR;
+
+/// Where the npm package @mujoco/mujoco lies; empty where it is not installed.
+std::filesystem::path engine() {
+  for (const char* folder : {"data/bench/mujoco", "tests/data/mujoco"}) {
+    const auto package = kSource / folder / "node_modules/@mujoco/mujoco";
+    if (exists(package / "mujoco.js")) return package;
+  }
+  return {};
+}
+
+constexpr double kInterval = 2e-3;
+
+Recording excitation(double amplitude, double seconds) {
+  Recording recording;
+  recording.id = "excitation";
+  for (int k = 0; k * kInterval <= seconds + 1e-9; ++k) {
+    const double t = k * kInterval;
+    const double w = 2.0 * std::numbers::pi * t;
+    recording.time.push_back(t);
+    recording.channels[Quantity::motor_torque].push_back(
+        amplitude * (0.5 * std::sin(0.3 * w) + 0.3 * std::sin(0.71 * w) + 0.2 * std::sin(1.3 * w)));
+  }
+  return recording;
+}
+
+nlohmann::json played(const RigModel& model, const Recording& input) {
+  const ExportFolder folder;
+  write_export("mjcf", carried("mjcf", model).model, folder);
+  folder.write({{"input.json", nlohmann::json{{"interval", kInterval},
+                                              {"torque", input.channels.at(Quantity::motor_torque)}}
+                                   .dump()}});
+  const int code =
+      folder.run(fmt::format("node {} {} drive.xml input.json > output.json",
+                             (kSource / "tests/data/mujoco/play.mjs").string(), engine().string()));
+  EXPECT_EQ(code, 0) << "MuJoCo refuses the model";
+  return code == 0
+             ? nlohmann::json::parse(read_file(folder.path() / "output.json").value_or("null"))
+             : nlohmann::json();
+}
+
+/// Largest distance between both over the range of ours.
+double distance(const std::vector<double>& ours, const std::vector<double>& theirs) {
+  const auto [low, high] = std::ranges::minmax(ours);
+  double most = 0.0;
+  for (std::size_t k = 0; k < ours.size(); ++k)
+    most = std::max(most, std::abs(ours[k] - theirs[k]));
+  return most / (high - low);
+}
+
+class InMuJoCo : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!there_is("node")) GTEST_SKIP() << "there is no node";
+    if (engine().empty()) {
+      GTEST_SKIP()
+          << "npm install --prefix tests/data/mujoco @mujoco/mujoco@3.14.0 has not been run";
+    }
+  }
+  // Runs both and compares the load's angle; the motor's with it where it turns on its own.
+  void expect_within(const RigModel& model, double amplitude, double share) {
+    const Recording input = excitation(amplitude, 10.0);
+    const auto ours = motions_under(model, input);
+    ASSERT_TRUE(ours) << ours.error().message();
+    const auto theirs = played(model, input);
+    ASSERT_TRUE(theirs.is_object());
+    const double load = distance(*ours->find(Quantity::load_angle), theirs.at("load"));
+    RecordProperty("load", std::to_string(load));
+    EXPECT_LT(load, share);
+    if (model.rig != Rig::free) return;
+    EXPECT_LT(distance(*ours->find(Quantity::motor_angle), theirs.at("motor")), share);
+  }
+};
+
+RigModel baseline(Rig rig) {
+  RigModel model = example_model(rig);
+  model.drive.torsion.h.coefficients.clear();
+  model.drive.coulomb_width = 0.02;
+  return model;
+}
+
+TEST_F(InMuJoCo, TheFreeRigMovesAsOurs) { expect_within(baseline(Rig::free), 1.5, 1e-3); }
+
+TEST_F(InMuJoCo, TheServoMovesAsOurs) {
+  RigModel model = baseline(Rig::servo);
+  model.drive.load_inertia = 0.6;
+  expect_within(model, 0.8, 1e-3);
+}
+
+TEST_F(InMuJoCo, WeightOffsetAndGainOfTheMotorAreHeld) {
+  RigModel model = baseline(Rig::free);
+  model.drive.torsion.effects = {{"gravity_load", {{"moment", 6.0}, {"phase", 0.4}}},
+                                 {"motor_torque_offset", {{"offset", 0.05}}},
+                                 {"torque_constant_error", {{"error", -0.1}}}};
+  expect_within(model, 1.5, 1e-3);
+}
+
+// What the form cannot hold is measured by us as the engine has it: the carried model is what is
+// compared.
+TEST_F(InMuJoCo, WhatIsLostIsWhatTheEngineLacks) {
+  RigModel model = example_model(Rig::free);
+  model.drive.torsion.g_inverse = law_spec("power_law", 0.05, {}, {4.0, 0.5});
+  const Carried c = carried("mjcf", model);
+  EXPECT_EQ(c.lost.size(), 3u) << "g^-1, h, the width of dry friction";
+  const Recording input = excitation(1.5, 10.0);
+  const auto whole = motions_under(model, input);
+  const auto form = motions_under(c.model, input);
+  ASSERT_TRUE(whole && form);
+  const auto theirs = played(model, input);
+  ASSERT_TRUE(theirs.is_object());
+  const auto& angle = *form->find(Quantity::load_angle);
+  EXPECT_LT(distance(angle, theirs.at("load")), 1e-3);
+}
+
+}  // namespace
+}  // namespace flexspline::data
