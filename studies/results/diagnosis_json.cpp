@@ -220,7 +220,7 @@ Json to_json(const Diagnosis& diagnosis) {
       list_of(diagnosis.moved, [&](const ParameterMove& m) { return moved_json(diagnosis, m); });
   json["series"] = list_of(diagnosis.series,
                            [&](const DiagnosedSeries& one) { return series_json(one, diagnosis); });
-  json["model"] = data::to_json(diagnosis.model);
+  json["model"] = diagnosis.model ? data::to_json(*diagnosis.model) : Json(nullptr);
   json["notes"] = notes_json(diagnosis);
   json["seconds"] = number(diagnosis.seconds);
   return json;

@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "diagnosis_artefact.hpp"
+#include "diagnosis_engine.hpp"
 #include "diagnosis_summary.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
@@ -42,8 +43,10 @@ Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
   const auto written =
       data::write_artefact(folder / "diagnosis.json", diagnosis_artefact(diagnosis));
   if (!written) return tl::unexpected(written.error());
-  const auto model = data::write_model(folder / "model.toml", diagnosis.model);
-  if (!model) return tl::unexpected(model.error());
+  if (diagnosis.model) {
+    const auto model = data::write_model(folder / "model.toml", *diagnosis.model);
+    if (!model) return tl::unexpected(model.error());
+  }
   return reports::write_report(folder);
 }
 
@@ -52,8 +55,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
   catch_stop_signals();
-  const auto diagnosis =
-      studies::diagnose(*recordings, progress_on(console), 0, arguments.texts("holdout"));
+  const auto engine = engine_of(arguments);
+  if (!engine) return tl::unexpected(engine.error());
+  const auto diagnosis = (*engine)(*recordings, progress_on(console));
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
   console.say(
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
@@ -83,7 +87,9 @@ CommandRow describe_diagnose() {
                          .meaning = "recording that is taken away before the search and on which "
                                     "the result is judged once",
                          .value = "ID",
-                         .repeats = true}},
+                         .repeats = true},
+                        engine_argument(),
+                        interest_argument()},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};
 }
