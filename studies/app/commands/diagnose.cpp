@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -11,20 +10,15 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/reports/report.hpp"
-#include "stop_signal.hpp"
+#include "output_folder.hpp"
 
 namespace flexspline::app {
 namespace {
 
 using studies::Diagnosis;
 
-/// Nothing has been written while a diagnosis runs: where it is to stop, it is dropped.
 studies::DiagnosisProgress progress_on(Console& console) {
   return [&console](double share, std::string_view stage) {
-    if (stop_requested()) {
-      console.error("interrupted; nothing was written");
-      std::_Exit(static_cast<int>(ErrorCode::interrupted));
-    }
     const std::string text = fmt::format("{:3.0f} %  {}", 100.0 * share, stage);
     console.live(text);
     if (!console.is_terminal()) console.detail(text);
@@ -49,7 +43,9 @@ Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
     std::error_code ignored;  // a model of an earlier run would contradict this one
     std::filesystem::remove(folder / "model.toml", ignored);
   }
-  return reports::write_report(folder);
+  const auto report = reports::write_report(folder);
+  if (!report) return tl::unexpected(report.error());
+  return report->page;
 }
 
 std::string number(double value, const char* unit = "") {
@@ -86,13 +82,24 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto recordings = data::load_dataset(arguments.text("dataset"));
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
-  catch_stop_signals();
+  const std::filesystem::path dataset = arguments.text("dataset");
+  auto output = OutputFolder::claim({"diagnose",
+                                     arguments.text("out"),
+                                     recordings->name,
+                                     recordings->sha256,
+                                     dataset,
+                                     {dataset},
+                                     arguments.has("force")});
+  if (!output) return tl::unexpected(output.error());
   const auto diagnosis = studies::diagnose(*recordings, progress_on(console));
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
   console.say(
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
   const auto page = write_diagnosis(*diagnosis, arguments.text("out"));
   if (!page) return tl::unexpected(page.error());
+  const std::vector<std::string> files = {"diagnosis.json", "model.toml", "index.html", "report",
+                                          "tables"};
+  if (auto done = output->finish(files); !done) return tl::unexpected(done.error());
   console.result(console.json ? diagnosis_artefact(*diagnosis).dump(2)
                               : summary_of(*diagnosis) + "\n" + page->string());
   return kDone;
@@ -112,7 +119,8 @@ CommandRow describe_diagnose() {
                         {.name = "--out",
                          .meaning = "folder for diagnosis.json, model.toml and the report",
                          .value = "DIR",
-                         .required = true}},
+                         .required = true},
+                        kForce},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};
 }
