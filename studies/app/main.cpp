@@ -30,7 +30,8 @@ struct Slot {
 void add_argument(CLI::App& sub, Slot& slot) {
   const ArgumentInfo& info = *slot.info;
   if (info.is_flag()) {
-    slot.option = sub.add_flag(std::string(info.name), std::string(info.meaning));
+    const std::string meaning(info.meaning);
+    slot.option = sub.add_flag(std::string(info.name), meaning);
     return;
   }
   slot.option = sub.add_option(std::string(info.name), slot.values, std::string(info.meaning));

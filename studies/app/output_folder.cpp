@@ -76,11 +76,12 @@ std::string content_of(const fs::path& folder) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// True: it is empty, or does not exist yet.
+/// True: it is empty, or does not exist yet, or was claimed and nothing came of it.
 Result<bool> check_content(const OutputWish& wish, const data::Manifest& wanted) {
   const std::string content = content_of(wish.folder);
   if (content.empty()) return true;
   const auto earlier = data::read_manifest(wish.folder);
+  if (earlier && !earlier->finished && content == data::kManifestFile) return true;
   if (wish.force || (earlier && earlier->same_origin(wanted))) return false;
   constexpr const char* kRemedy =
       "choose another folder, or add --force to replace what has the same name there";

@@ -139,8 +139,7 @@ TEST(WriteReport, NamesArtefactsThatCannotBeRead) {
   EXPECT_TRUE(contains(html, "cases/h_one--paper--r0.json: its checksum does not hold"));
   EXPECT_TRUE(contains(html, "cases/cut.json: from line 1, column 12 on it is not JSON"));
   EXPECT_TRUE(contains(html, "cut short or damaged"));
-  EXPECT_LT(html.find("2 of this study's artefacts cannot be read"), html.find("In short"))
-      << "on top of the page";
+  EXPECT_LT(html.find("artefacts cannot be read"), html.find("In short")) << "on top of the page";
   EXPECT_TRUE(contains(html, "from 15 cases"));
 }
 

@@ -40,6 +40,7 @@ struct Call {
   Stream err = Stream::kept;
   double limit = 120.0;  ///< s until it is asked to stop
   int stop_signal = SIGTERM;
+  std::filesystem::path folder{};  ///< to run in; empty: that of the tests
 };
 
 /// The executable beside the tests, or the one that FLEXSPLINE_PROGRAM names.
@@ -87,6 +88,9 @@ class ChildProgram {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     direct(actions, STDOUT_FILENO, call_.out, "stdout");
     direct(actions, STDERR_FILENO, call_.err, "stderr");
+    if (!call_.folder.empty()) {
+      posix_spawn_file_actions_addchdir_np(&actions, call_.folder.c_str());
+    }
     std::string program = program_path().string();
     std::vector<char*> words = {program.data()};
     for (std::string& word : call_.arguments) words.push_back(word.data());

@@ -76,7 +76,7 @@ TEST_F(ResultsFile, DescribesEveryVariable) {
     double fill = 0.0;
     const bool filled = nc_get_att_double(file_, id, "_FillValue", &fill) == NC_NOERR;
     EXPECT_EQ(filled, type == NC_DOUBLE && !coordinate) << name;
-    if (filled) EXPECT_TRUE(std::isnan(fill)) << name;
+    EXPECT_EQ(std::isnan(fill), filled) << name;
   }
   for (const char* name : {"replicate", "row"}) {
     nc_type type = NC_NAT;

@@ -12,7 +12,7 @@ class AskedToStop : public Program {
     ASSERT_EQ(simulate("set", {"--cycles", "40", "--samples", "20000"}).code, 0);
     std::string bench = kSmallBench;
     for (std::size_t at = 0; (at = bench.find("samples = 200", at)) != std::string::npos; ++at) {
-      bench.replace(at, 13, "samples = 60000");
+      bench.replace(at, 13, "samples = 400000");
     }
     folder_.write("long.toml", bench);
     folder_.write("trial.toml",

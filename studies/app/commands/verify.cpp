@@ -38,14 +38,14 @@ studies::RunSettings settings_of(const fs::path& again, long jobs, Console& cons
   return settings;
 }
 
+/// A second computation; or the verification that there was no use in one.
+using Again = Result<std::optional<studies::Verification>>;
+
 Again unless_interrupted(bool interrupted) {
   if (!interrupted) return std::nullopt;
   return failure(ErrorCode::interrupted, "interrupted; nothing was compared",
                  "the same command begins anew");
 }
-
-/// A second computation; or the verification that there was no use in one.
-using Again = Result<std::optional<studies::Verification>>;
 
 Again run_study_again(const Arguments& arguments, const studies::RunSettings& settings,
                       Console& console) {
@@ -138,7 +138,7 @@ Result<OutputFolder> claim_for(const Arguments& arguments, const fs::path& out) 
   }
   const std::string place = fs::canonical(folder, error).string();
   OutputWish wish{"verify", out, folder.filename().string(), data::sha256_hex(place), folder, {}};
-  if (arguments.has("out")) wish.read.push_back(folder);
+  if (out != folder / "verification") wish.read.push_back(folder);
   for (const char* one : {"study", "dataset", "against"}) {
     if (arguments.has(one)) wish.read.emplace_back(arguments.text(one));
   }

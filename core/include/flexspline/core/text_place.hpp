@@ -14,10 +14,4 @@ struct TextPlace {
 /// The place of a byte, or of the end where the text is shorter.
 TextPlace place_of(std::string_view text, std::size_t byte);
 
-/// Deepest nesting of brackets and braces outside of quotes.
-std::size_t nesting_of(std::string_view json);
-
-/// More than any artefact has, and far less than what reading and writing JSON can stand.
-inline constexpr std::size_t kDeepestJson = 100;
-
 }  // namespace flexspline

@@ -14,8 +14,8 @@ namespace flexspline::data {
 /// Errors: cannot_write.
 Result<void> write_artefact(const std::filesystem::path& path, nlohmann::ordered_json content);
 
-/// Errors: bad_data with file, line and column, for what is not JSON or nested deeper than
-/// kDeepestJson.
+/// JSON of a file that has been read.
+/// Errors: bad_data with file, line and column, for what is not JSON.
 Result<nlohmann::ordered_json> parse_json(std::string_view text, const std::filesystem::path& path);
 
 /// The content of an artefact without its checksum.

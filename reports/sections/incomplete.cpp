@@ -7,7 +7,7 @@ namespace {
 std::optional<Section> draw(const StudyView& view) {
   const Artefacts& artefacts = view.artefacts();
   if (artefacts.unreadable.empty()) return std::nullopt;
-  Section section{"left-out", "Not complete", {}};
+  Section section{"incomplete", "Not complete", {}};
   section.add(Verdict{std::to_string(artefacts.unreadable.size()) +
                       " of this study's artefacts cannot be read. Every number on this page is "
                       "computed without them, from " +
@@ -18,6 +18,6 @@ std::optional<Section> draw(const StudyView& view) {
 
 }  // namespace
 
-SectionRow describe_left_out() { return {-10, draw}; }
+SectionRow describe_incomplete() { return {-10, draw}; }
 
 }  // namespace flexspline::reports
