@@ -64,9 +64,22 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path) {
   return result;
 }
 
+/// Never destroyed: the program may be ended while other threads write.
+std::shared_timed_mutex& writes_under_way() {
+  static auto& mutex = *new std::shared_timed_mutex;
+  return mutex;
+}
+
 }  // namespace
 
+std::shared_lock<std::shared_timed_mutex> writing() { return std::shared_lock(writes_under_way()); }
+
+void let_no_write_begin(std::chrono::milliseconds patience) {
+  static_cast<void>(writes_under_way().try_lock_for(patience));
+}
+
 Result<void> write_file(const std::filesystem::path& path, std::string_view content) {
+  const auto whole = writing();
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) return not_written(path, error.message());

@@ -9,6 +9,7 @@
 
 #include "flexspline/core/in_parallel.hpp"
 #include "flexspline/core/write_file.hpp"
+#include "lock_file.hpp"
 #include "parse_artefacts.hpp"
 #include "read_checked.hpp"
 
@@ -44,8 +45,8 @@ auto read_one(const fs::path& path, std::string_view schema, Parse parse,
   if (!artefact) return refuse(artefact.error().problem);
   try {
     return parse(*artefact);
-  } catch (const json::exception& error) {
-    return refuse(error.what());
+  } catch (const json::exception&) {
+    return refuse(kOtherKind);
   }
 }
 
@@ -74,6 +75,17 @@ void keep_first_of_each_id(std::vector<Input>& inputs) {
     if (!known) kept.push_back(std::move(input));
   }
   inputs = std::move(kept);
+}
+
+void name_missing(const fs::path& folder, const std::vector<std::string>& keys,
+                  std::vector<std::string>& unreadable) {
+  for (const std::string& key : keys) {
+    const fs::path file = fs::path("cases") / (key + ".json");
+    std::error_code error;
+    if (!fs::exists(folder / file, error)) {
+      unreadable.push_back(file.generic_string() + ": it is missing");
+    }
+  }
 }
 
 }  // namespace
@@ -114,6 +126,7 @@ Result<Artefacts> read_artefacts(const fs::path& folder) {
     artefacts.paper = read_one(path, "flexspline-paper/1", parse_paper, unreadable);
   }
   if (auto lock = read_file(folder / "study.lock.toml")) artefacts.lock = std::move(*lock);
+  name_missing(folder, parse_lock(artefacts.lock).cases, unreadable);
   const bool nothing = artefacts.inputs.empty() && artefacts.cases.empty() && !artefacts.paper &&
                        unreadable.empty() && artefacts.lock.empty();
   if (nothing) {

@@ -30,6 +30,9 @@ LockFile parse_lock(const std::string& lock) {
     }
     parsed.inputs = ids_in(table, "study.input");
     parsed.estimators = ids_in(table, "study.estimator");
+    if (const toml::table* cases = table["cases"].as_table()) {
+      for (const auto& [key, depends_on] : *cases) parsed.cases.emplace_back(key.str());
+    }
   } catch (const toml::parse_error&) {
     return {};
   }

@@ -10,6 +10,7 @@ struct LockFile {
   std::string title;
   std::vector<std::string> inputs;      ///< ids in the study's order
   std::vector<std::string> estimators;  ///< ids in the study's order
+  std::vector<std::string> cases;       ///< keys
 };
 
 /// A lock that cannot be read gives nothing; it is still shown as it stands.

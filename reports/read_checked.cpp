@@ -1,8 +1,10 @@
 #include "read_checked.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "checksum.hpp"
+#include "flexspline/core/text_place.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "json_fields.hpp"
 #include "parse_artefacts.hpp"
@@ -18,8 +20,8 @@ Result<View> read_view(const std::filesystem::path& path, std::string_view schem
   if (!artefact) return tl::unexpected(in_context(artefact.error(), path.string()));
   try {
     return parse(*artefact);
-  } catch (const nlohmann::json::exception& error) {
-    return failure(ErrorCode::bad_data, path.string() + ": " + error.what());
+  } catch (const nlohmann::json::exception&) {
+    return failure(ErrorCode::bad_data, path.string() + ": " + kOtherKind);
   }
 }
 
@@ -39,8 +41,14 @@ Result<json> read_checked(const std::filesystem::path& path, std::string_view sc
     }
     if (checksum_holds(*text)) return artefact;
     return failure(ErrorCode::bad_data, "its checksum does not hold");
-  } catch (const json::exception& error) {
-    return failure(ErrorCode::bad_data, error.what());
+  } catch (const json::parse_error& error) {
+    const TextPlace place = flexspline::place_of(*text, error.byte > 0 ? error.byte - 1 : 0);
+    return failure(ErrorCode::bad_data,
+                   fmt::format("from line {}, column {} on it is not JSON; the file may be cut "
+                               "short or damaged",
+                               place.line, place.column));
+  } catch (const json::exception&) {
+    return failure(ErrorCode::bad_data, kOtherKind);
   }
 }
 

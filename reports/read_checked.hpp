@@ -9,6 +9,10 @@
 
 namespace flexspline::reports {
 
+/// Said of an artefact whose fields do not fit its schema.
+inline constexpr const char* kOtherKind =
+    "a field is missing or of another kind than its schema says";
+
 /// The JSON of an artefact. Errors, without the file's name: input_missing; bad_data when it is not
 /// JSON, has another schema, or its checksum does not hold.
 Result<nlohmann::json> read_checked(const std::filesystem::path& path, std::string_view schema);

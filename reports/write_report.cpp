@@ -53,6 +53,7 @@ Document compose(std::string title, std::span<const Row> catalogue, const View& 
 struct Composed {
   Document document;
   fs::path page;
+  std::vector<std::string> left_out{};
 };
 
 Result<Composed> of_diagnosis(const fs::path& folder) {
@@ -82,7 +83,8 @@ Result<Composed> of_study(const fs::path& folder) {
   if (!artefacts) return tl::unexpected(artefacts.error());
   const std::string title = parse_lock(artefacts->lock).title;
   const StudyView view(std::move(*artefacts));
-  return Composed{compose(title.empty() ? kGeneralTitle : title, sections(), view), kPage};
+  return Composed{compose(title.empty() ? kGeneralTitle : title, sections(), view), kPage,
+                  view.artefacts().unreadable};
 }
 
 Result<Composed> of_folder(const fs::path& folder) {
@@ -112,7 +114,7 @@ Result<void> write_tables(const fs::path& folder, const Document& document) {
 
 }  // namespace
 
-Result<fs::path> write_report(const fs::path& folder) {
+Result<WrittenReport> write_report(const fs::path& folder) {
   const auto report = of_folder(folder);
   if (!report) return tl::unexpected(in_context(report.error(), "report"));
   const Document& document = report->document;
@@ -126,7 +128,7 @@ Result<fs::path> write_report(const fs::path& folder) {
           })
           .and_then([&] { return write_file(page, page_of(document)); });
   if (!written) return tl::unexpected(in_context(written.error(), "report"));
-  return page;
+  return WrittenReport{page, report->left_out};
 }
 
 }  // namespace flexspline::reports

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/text_place.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/checksum.hpp"
 
@@ -49,6 +50,16 @@ bool is_as_written(std::string_view text) {
 
 }  // namespace
 
+Result<Json> parse_json(std::string_view text, const std::filesystem::path& path) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const TextPlace place = place_of(text, error.byte > 0 ? error.byte - 1 : 0);
+    return refused(fmt::format("{}:{}:{}", path.string(), place.line, place.column),
+                   "from here on it is not JSON; the file may be cut short or damaged");
+  }
+}
+
 Result<void> write_artefact(const std::filesystem::path& path, Json content) {
   content.erase("sha256");
   std::string text = canonical(content);
@@ -60,20 +71,22 @@ Result<void> write_artefact(const std::filesystem::path& path, Json content) {
 Result<Json> read_artefact(const std::filesystem::path& path, std::string_view schema) {
   const Result<std::string> text = read_file(path);
   if (!text) return tl::unexpected<Error>(text.error());
-  Json content = Json::parse(*text, nullptr, false);
-  if (!content.is_object()) return refused(path, "not a JSON object; it may be cut short");
+  Result<Json> parsed = parse_json(*text, path);
+  if (!parsed) return parsed;
+  Json& content = *parsed;
+  if (!content.is_object()) return refused(path, "not a JSON object");
   if (!has_text(content, "schema", schema)) {
     return refused(path, fmt::format("schema is {}, not \"{}\"", shown(content, "schema"), schema));
   }
   const Json written = content.value("sha256", Json());
   content.erase("sha256");
-  if (is_as_written(*text)) return content;
+  if (is_as_written(*text)) return parsed;
   const std::string sum = sha256_hex(canonical(content));
   if (written != sum) {
     return refused(path, fmt::format("checksum does not hold: sha256 is {}, the content gives {}",
                                      canonical(written), sum));
   }
-  return content;
+  return parsed;
 }
 
 }  // namespace flexspline::data

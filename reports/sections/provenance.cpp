@@ -58,9 +58,6 @@ std::optional<Section> draw(const StudyView& view) {
   const Artefacts& artefacts = view.artefacts();
   Section section{"provenance-section", "Where this comes from, and how to get it again", {}};
   section.add(Listing{kCommands});
-  for (const std::string& reason : artefacts.unreadable) {
-    section.add(Paragraph{"Left out, because it cannot be read: " + reason});
-  }
   if (!artefacts.inputs.empty()) section.fold("Inputs", inputs_table(view));
   if (!artefacts.cases.empty()) section.fold("Cases", cases_table(view));
   if (!artefacts.lock.empty()) section.fold("study.lock.toml", Listing{artefacts.lock});

@@ -72,7 +72,7 @@ std::string catalogue_text(const ordered_json& rows) {
     text += fmt::format("{}{:<26} {}", text.empty() ? "" : "\n", row.at("id").get<std::string>(),
                         row.at("says").get<std::string>());
     text += further_words(row) + rig_words(row);
-    for (const char* list : {"options", "parameters"}) {
+    for (const char* list : {"options", "parameters", "arguments"}) {
       if (!row.contains(list)) continue;
       for (const ordered_json& one : row.at(list)) {
         text += fmt::format("\n    {:<24} {}", one.at("name").get<std::string>(), explained(one));

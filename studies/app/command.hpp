@@ -13,13 +13,15 @@
 namespace flexspline::app {
 
 /// One argument of a command. Names that begin with - are options, others positions; each takes a
-/// value.
+/// value but flags, which have none.
 struct ArgumentInfo {
   std::string_view name;  ///< "study", "--out"
   std::string_view meaning;
-  std::string_view value;  ///< what it takes, e.g. "DIR"
+  std::string_view value;  ///< what it takes, e.g. "DIR"; a flag: empty
   bool required = false;
   bool repeats = false;  ///< may be given more than once
+
+  bool is_flag() const { return value.empty(); }
 };
 
 /// What was given, by the name of the argument without its dashes.

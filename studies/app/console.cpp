@@ -1,29 +1,57 @@
 #include "console.hpp"
 
-#include <cstdio>
+#include <cerrno>
 #include <cstdlib>
+#include <system_error>
 
+#include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 namespace flexspline::app {
+namespace {
+
+/// 0, or the errno of the write that failed.
+int put(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno == EAGAIN) {
+      pollfd ready{file, POLLOUT, 0};
+      ::poll(&ready, 1, -1);
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
 
 Console::Console()
     : terminal_(isatty(STDERR_FILENO) != 0),
       colour_(terminal_ && std::getenv("NO_COLOR") == nullptr) {}
 
-void Console::line(std::string_view text) {
-  if (live_shown_) fmt::print(stderr, "\r\x1b[K");
+void Console::clear_live() {
+  if (live_shown_) static_cast<void>(put(STDERR_FILENO, "\r\x1b[K"));
   live_shown_ = false;
-  fmt::print(stderr, "{}\n", text);
+}
+
+void Console::line(std::string_view text) {
+  clear_live();
+  static_cast<void>(put(STDERR_FILENO, fmt::format("{}\n", text)));
 }
 
 void Console::result(std::string_view text) {
-  if (live_shown_) fmt::print(stderr, "\r\x1b[K");
-  live_shown_ = false;
-  fmt::print("{}\n", text);
-  std::fflush(stdout);
+  clear_live();
+  const int failed = put(STDOUT_FILENO, fmt::format("{}\n", text));
+  if (failed == 0 || !result_lost_.empty()) return;
+  result_lost_ = std::generic_category().message(failed);
+  if (failed == EPIPE) return;  // who closed the pipe wants no more
+  error(fmt::format("the result cannot be printed: {}; what was computed is kept", result_lost_));
 }
 
 void Console::say(std::string_view text) {
@@ -41,9 +69,16 @@ void Console::error(std::string_view text) {
 
 void Console::live(std::string_view text) {
   if (quiet || !terminal_) return;
-  fmt::print(stderr, "\r\x1b[K{}", text);
-  std::fflush(stderr);
+  static_cast<void>(put(STDERR_FILENO, fmt::format("\r\x1b[K{}", text)));
   live_shown_ = true;
+}
+
+void keep_standard_files_apart() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(file, F_GETFD) >= 0) continue;
+    // For reading only: writing to it still fails.
+    if (::open("/dev/null", O_RDONLY) != file) return;
+  }
 }
 
 }  // namespace flexspline::app

@@ -98,6 +98,19 @@ std::string effect_index() {
   return text;
 }
 
+Result<void> check_effect_pages(const std::filesystem::path& folder) {
+  std::vector<std::string> names = {"README.md"};
+  for (const EffectRow& row : effects()) names.push_back(fmt::format("{}.md", row.id));
+  for (const std::string& name : names) {
+    const auto there = read_file(folder / name);
+    if (!there || there->starts_with(kOrigin)) continue;
+    return failure(ErrorCode::cannot_write,
+                   fmt::format("{} is not a page of the catalogue", (folder / name).string()),
+                   "choose another folder, or add --force to replace it");
+  }
+  return {};
+}
+
 Result<void> write_effect_pages(const std::filesystem::path& folder) {
   for (const EffectRow& row : effects()) {
     const auto path = folder / fmt::format("{}.md", row.id);

@@ -18,6 +18,9 @@ std::string effect_page(const EffectRow& row);
 /// The table of all effects, with links to their pages.
 std::string effect_index();
 
+/// Errors: cannot_write, where a file of a page's name is there that is none.
+Result<void> check_effect_pages(const std::filesystem::path& folder);
+
 /// Writes <id>.md for every effect and README.md. Errors: cannot_write.
 Result<void> write_effect_pages(const std::filesystem::path& folder);
 

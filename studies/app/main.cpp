@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
+#include <span>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "command.hpp"
 #include "flexspline/core/nearest_name.hpp"
+#include "stop_signal.hpp"
 #include "version.hpp"
 
 namespace flexspline::app {
@@ -25,6 +29,11 @@ struct Slot {
 
 void add_argument(CLI::App& sub, Slot& slot) {
   const ArgumentInfo& info = *slot.info;
+  if (info.is_flag()) {
+    const std::string meaning(info.meaning);
+    slot.option = sub.add_flag(std::string(info.name), meaning);
+    return;
+  }
   slot.option = sub.add_option(std::string(info.name), slot.values, std::string(info.meaning));
   slot.option->type_name(std::string(info.value))->required(info.required);
   slot.option->expected(1)->multi_option_policy(info.repeats ? CLI::MultiOptionPolicy::TakeAll
@@ -59,11 +68,25 @@ Arguments collect(const Parser& parser) {
   return arguments;
 }
 
+Result<void> refuse_empty(const Parser& parser) {
+  for (const Slot& slot : parser.slots) {
+    if (std::ranges::find(slot.values, "") == slot.values.end()) continue;
+    return failure(
+        ErrorCode::usage, fmt::format("{} is empty", slot.info->name),
+        fmt::format("give {}{}", slot.info->value, slot.info->required ? "" : ", or leave it out"));
+  }
+  return {};
+}
+
 ExitCode run(const Parser& parser, Console& console) {
-  const Result<ExitCode> done = parser.row->run(collect(parser), console);
-  if (done) return *done;
-  console.error(done.error().message());
-  return static_cast<ExitCode>(done.error().code);
+  const auto given = refuse_empty(parser);
+  const Result<ExitCode> done = given ? parser.row->run(collect(parser), console)
+                                      : Result<ExitCode>(tl::unexpected(given.error()));
+  if (!done) {
+    console.error(done.error().message());
+    return static_cast<ExitCode>(done.error().code);
+  }
+  return console.result_lost() ? static_cast<ExitCode>(ErrorCode::cannot_write) : *done;
 }
 
 std::string command_help(const std::string& given) {
@@ -72,15 +95,45 @@ std::string command_help(const std::string& given) {
   return fmt::format("there is no command '{}'; {}", given, suggestion(given, names));
 }
 
-ExitCode refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  if (error.get_exit_code() == 0) return app.exit(error);
-  Console console;
-  const std::string first = argc > 1 ? argv[1] : "";
-  const bool known = first.starts_with('-') ||
-                     std::ranges::find(commands(), first, &CommandRow::id) != commands().end();
-  console.error(known || first.empty() ? error.what() : command_help(first));
+/// Of what was given, the first that begins with dashes and is no option; empty: none.
+std::string unknown_option(const CommandRow& row, std::span<char* const> given) {
+  std::vector<std::string_view> known = {"--help",    "-h", "--json",   "--quiet",
+                                         "--verbose", "-v", "--version"};
+  for (const ArgumentInfo& info : row.arguments) {
+    if (info.name.starts_with('-')) known.push_back(info.name);
+  }
+  for (const std::string_view one : given) {
+    const std::string_view name = one.substr(0, one.find('='));
+    if (!name.starts_with("--") || std::ranges::find(known, name) != known.end()) continue;
+    return fmt::format("{} has no option '{}'; {}", row.id, name, suggestion(name, known));
+  }
+  return {};
+}
+
+/// What is wrong in words of ours where there are better ones than the parser's.
+std::string reason_of(const CLI::ParseError& error, std::span<char* const> given) {
+  if (given.empty()) return error.what();
+  const std::string first = given.front();
+  const auto row = std::ranges::find(commands(), first, &CommandRow::id);
+  if (row == commands().end()) return first.starts_with('-') ? error.what() : command_help(first);
+  const std::string unknown = unknown_option(*row, given.subspan(1));
+  return unknown.empty() ? error.what() : unknown;
+}
+
+ExitCode refuse(const CLI::App& app, const CLI::ParseError& error, std::span<char* const> given,
+                Console& console) {
+  if (error.get_exit_code() == 0) {
+    std::ostringstream text;
+    app.exit(error, text, text);
+    console.result(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
+    return console.result_lost() ? static_cast<ExitCode>(ErrorCode::cannot_write) : kDone;
+  }
+  console.error(reason_of(error, given));
+  const bool known =
+      !given.empty() && std::ranges::find(commands(), std::string_view(given.front()),
+                                          &CommandRow::id) != commands().end();
   console.error(
-      fmt::format("see flexspline {}--help", known && !first.starts_with('-') ? first + " " : ""));
+      fmt::format("see flexspline {}--help", known ? given.front() + std::string(" ") : ""));
   return static_cast<ExitCode>(ErrorCode::usage);
 }
 
@@ -96,7 +149,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return refuse(app, error, argc, argv);
+    const auto all = std::span<char* const>(argv, static_cast<std::size_t>(argc));
+    return refuse(app, error, all.subspan(std::min<std::size_t>(1, all.size())), console);
   }
   for (const Parser& parser : parsers) {
     if (parser.sub->parsed()) return run(parser, console);
@@ -108,6 +162,9 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace flexspline::app
 
 int main(int argc, char** argv) {
+  flexspline::app::keep_standard_files_apart();
+  std::signal(SIGPIPE, SIG_IGN);  // a write that fails says so
+  flexspline::app::catch_stop_signals();
   try {
     return flexspline::app::parse_and_run(argc, argv);
   } catch (const std::exception& error) {

@@ -1,10 +1,12 @@
 #include "simulated_set.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "flexspline/core/model_domain.hpp"
 #include "flexspline/core/simulate.hpp"
 #include "flexspline/core/simulate_rig.hpp"
 #include "flexspline/core/torsion_record.hpp"
@@ -36,7 +38,49 @@ Result<Recording> simulate_one(const ModelSpec& model, const Excitation& excitat
   return recording;
 }
 
+/// Central differences, one-sided at the ends.
+double rate_at(const std::vector<double>& time, const std::vector<double>& motion, std::size_t i) {
+  const std::size_t from = i > 0 ? i - 1 : 0;
+  const std::size_t to = std::min(i + 1, motion.size() - 1);
+  return (motion[to] - motion[from]) / (time[to] - time[from]);
+}
+
+/// How much of the model's ranges is used, over all samples.
+struct Reach {
+  double of_f = 0.0;
+  double of_g_inverse = 0.0;
+  std::size_t outside = 0;
+  std::size_t samples = 0;
+};
+
+void add(const ModelDomain& domain, const TorsionRecord& recording, Reach& reach) {
+  const std::vector<double>& motion = recording.motion;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double rate = rate_at(recording.time, motion, i);
+    reach.of_f = std::max(reach.of_f, domain.share_of_f(motion[i]));
+    reach.of_g_inverse = std::max(reach.of_g_inverse, domain.share_of_g_inverse(motion[i], rate));
+    if (!domain.holds_at(motion[i], rate)) ++reach.outside;
+  }
+  reach.samples += motion.size();
+}
+
 }  // namespace
+
+Result<std::string> extrapolation(const ModelSpec& model, const RecordingSet& simulated) {
+  if (simulated.rig == Rig::servo) return std::string();  // nothing of it shows the torsion
+  const auto domain = ModelDomain::of(model);
+  if (!domain) return tl::unexpected(domain.error());
+  const auto records = torsion_records(simulated);
+  if (!records) return tl::unexpected(records.error());
+  Reach reach;
+  for (const TorsionRecord& record : *records) add(*domain, record, reach);
+  if (100 * reach.outside <= reach.samples) return std::string();
+  return fmt::format(
+      "extrapolated: the motion goes to {:.3g} times the range of f and the rate to {:.3g} times "
+      "the range of g^-1 that recordings support; {:.0f} % of the samples lie outside",
+      reach.of_f, reach.of_g_inverse,
+      100.0 * static_cast<double>(reach.outside) / static_cast<double>(reach.samples));
+}
 
 Excitation sine_excitation(double amplitude, double frequency_hz, long cycles, long samples,
                            Direction direction) {

@@ -1,11 +1,10 @@
 #include "comparison/compare_recording.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "comparison/decimate.hpp"
 #include "comparison/recording_zero.hpp"
-#include "flexspline/core/law.hpp"
+#include "flexspline/core/model_domain.hpp"
 #include "flexspline/core/signals.hpp"
 #include "flexspline/core/simulate.hpp"
 
@@ -54,25 +53,17 @@ Result<Motion> motion_of(const StudyRecording& recording, ComparedSeries& series
   return std::move(smooth->motion);
 }
 
-/// More than 1 % of the compared samples beyond 102 % of the trained range of f or g^-1.
+/// More than 1 % of the compared samples outside of the model's domain.
 Result<bool> leaves_domain(const ModelSpec& model, const Motion& motion,
                            const ComparedSeries& series) {
-  const Result<std::unique_ptr<Law>> h = make_law(model.h);
-  if (!h) return tl::unexpected(h.error());
-  constexpr double kSlack = 1.02;
-  const auto beyond = [](double argument, double limit) {
-    return limit > 0.0 && std::abs(argument) > kSlack * limit;
-  };
+  const auto domain = ModelDomain::of(model);
+  if (!domain) return tl::unexpected(domain.error());
   std::size_t outside = 0;
   std::size_t total = 0;
   for (std::size_t i = 0; i < motion.position.size(); ++i) {
     if (!series.counts[i]) continue;
     ++total;
-    const double x = motion.position[i];
-    if (beyond(x, model.f.valid_to) ||
-        beyond(motion.velocity[i] / (*h)->value(x), model.g_inverse.valid_to)) {
-      ++outside;
-    }
+    if (!domain->holds_at(motion.position[i], motion.velocity[i])) ++outside;
   }
   return outside * 100 > total;
 }

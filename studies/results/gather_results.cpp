@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "results/results_table.hpp"
 
@@ -39,21 +40,27 @@ class Gatherer {
 
   ResultsTable operator()() {
     make_axes();
-    add_errors();
-    add_parameters("parameter_value", "estimates, SI or as scaled by their law",
+    add_errors("error_percent", "hold-out rms error of the effort, of the recording's peak",
+               "percent", &CaseRow::Recording::error_percent);
+    add_errors("error", "hold-out rms error of the torque", "N m", &CaseRow::Recording::error);
+    add_parameters("parameter_value", "estimates, in the units of parameter_unit",
                    &CaseRow::Parameter::value);
-    add_parameters("parameter_std", "standard deviations of the estimates",
+    add_parameters("parameter_std", "standard deviations of the estimates, in the same units",
                    &CaseRow::Parameter::std);
+    add_parameter_units();
     add_rows();
     return std::move(table_);
   }
 
  private:
   void make_axes() {
-    table_.axes = {
-        {"input", {}, {}, ""},       {"estimator", {}, {}, ""},  {"amplitude", {}, {}, "degree"},
-        {"frequency", {}, {}, "Hz"}, {"replicate", {}, {}, "1"}, {"parameter", {}, {}, ""},
-        {"row", {}, {}, "1"}};
+    table_.axes = {{"input", {}, {}, "", "id of the input"},
+                   {"estimator", {}, {}, "", "id of the estimator"},
+                   {"amplitude", {}, {}, "degree", "amplitude of the output's motion"},
+                   {"frequency", {}, {}, "Hz", "frequency of the output's motion"},
+                   {"replicate", {}, {}, "1", "number of the replicate", true},
+                   {"parameter", {}, {}, "", "name of the parameter"},
+                   {"row", {}, {}, "1", "number of the row", true}};
     for (const InputConfig& input : plan_.study->inputs)
       table_.axes[kInput].labels.push_back(input.id);
     for (const EstimatorConfig& row : plan_.study->estimators)
@@ -102,10 +109,10 @@ class Gatherer {
     return index_in(table_.axes[kEstimator].labels, one.estimator->id);
   }
 
-  void add_errors() {
+  void add_errors(const char* name, const char* says, const char* unit,
+                  double CaseRow::Recording::*number) {
     Variable& errors =
-        add("error_percent", "hold-out rms error of the effort, of the recording's peak", "percent",
-            {kInput, kEstimator, kAmplitude, kFrequency, kReplicate});
+        add(name, says, unit, {kInput, kEstimator, kAmplitude, kFrequency, kReplicate});
     for (const auto& [one, row] : cases_) {
       for (const CaseRow::Recording& recording : row->recordings) {
         if (!on_grid(*one, recording)) continue;
@@ -113,7 +120,7 @@ class Gatherer {
         const std::size_t f =
             index_in(table_.axes[kFrequency].values, tidy(recording.frequency_hz));
         at(errors, {input_of(*one), estimator_of(*one), a, f,
-                    static_cast<std::size_t>(one->replicate)}) = recording.error_percent;
+                    static_cast<std::size_t>(one->replicate)}) = recording.*number;
       }
     }
   }
@@ -129,6 +136,22 @@ class Gatherer {
     }
   }
 
+  void add_parameter_units() {
+    Variable units{
+        "parameter_unit", "units of the estimates", "", {kInput, kEstimator, kParameter}, {}, {}};
+    const auto& [inputs, estimators, names] =
+        std::tie(table_.axes[kInput], table_.axes[kEstimator], table_.axes[kParameter]);
+    units.labels.resize(inputs.size() * estimators.size() * names.size());
+    for (const auto& [one, row] : cases_) {
+      for (const CaseRow::Parameter& parameter : row->parameters) {
+        const std::size_t p = index_in(names.labels, parameter.name);
+        const std::size_t pair = input_of(*one) * estimators.size() + estimator_of(*one);
+        units.labels[pair * names.size() + p] = parameter.unit;
+      }
+    }
+    table_.variables.push_back(std::move(units));
+  }
+
   void add_rows() {
     Variable cases{"row_case", "key of the case", "", {kRow}, {}, {}};
     Variable ids{"row_recording", "id of the recording", "", {kRow}, {}, {}};
@@ -139,15 +162,21 @@ class Gatherer {
                     {kRow},
                     {},
                     {}};
+    Variable absolute{
+        "row_error", "rms error of the effort, in the unit of row_error_unit", "", {kRow}, {}, {}};
+    Variable units{
+        "row_error_unit", "unit of the effort: a torque, or a force", "", {kRow}, {}, {}};
     for (const auto& [one, row] : cases_) {
       for (const CaseRow::Recording& recording : row->recordings) {
+        absolute.values.push_back(recording.error);
+        units.labels.push_back(row->linear ? "N" : "N m");
         cases.labels.push_back(one->key);
         ids.labels.push_back(recording.id);
         roles.labels.push_back(recording.role);
         errors.values.push_back(recording.error_percent);
       }
     }
-    for (Variable* variable : {&cases, &ids, &roles, &errors})
+    for (Variable* variable : {&cases, &ids, &roles, &errors, &absolute, &units})
       table_.variables.push_back(std::move(*variable));
   }
 

@@ -21,6 +21,8 @@ struct Axis {
   std::vector<std::string> labels;  ///< of a dimension of names
   std::vector<double> values;       ///< of a dimension of numbers
   std::string unit;
+  std::string says{};
+  bool integer = false;
 
   std::size_t size() const { return labels.empty() ? values.size() : labels.size(); }
 };

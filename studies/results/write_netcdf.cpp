@@ -1,8 +1,13 @@
+#include <map>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <netcdf.h>
 
+#include "flexspline/core/write_file.hpp"
+#include "flexspline/data/checksum.hpp"
 #include "flexspline/studies/results.hpp"
 #include "results/results_table.hpp"
 
@@ -29,12 +34,19 @@ class NetcdfFile {
     if (ok() && !value.empty())
       check(nc_put_att_text(file_, variable, key, value.size(), value.c_str()));
   }
-  void variable(const Variable& one, const std::vector<int>& dimensions) {
+  /// CF: a coordinate has no missing values, so that _FillValue is for the others.
+  void coordinate(const Axis& axis, int dimension) {
+    variable({axis.name, axis.says, axis.unit, {}, axis.values, axis.labels}, {dimension},
+             axis.integer ? NC_INT : NC_DOUBLE, false);
+  }
+  void variable(const Variable& one, const std::vector<int>& dimensions, nc_type type = NC_DOUBLE,
+                bool may_be_missing = true) {
     if (!ok()) return;
     int id = 0;
     const bool numbers = one.labels.empty();
-    check(nc_def_var(file_, one.name.c_str(), numbers ? NC_DOUBLE : NC_STRING,
+    check(nc_def_var(file_, one.name.c_str(), numbers ? type : NC_STRING,
                      static_cast<int>(dimensions.size()), dimensions.data(), &id));
+    if (ok() && numbers && may_be_missing) check(nc_def_var_fill(file_, id, NC_FILL, &kNone));
     text(id, "long_name", one.says);
     text(id, "units", one.unit);
     if (!ok()) return;
@@ -64,17 +76,35 @@ class NetcdfFile {
   bool open_ = false;
 };
 
-std::string write_table(const ResultsTable& table, const std::string& title,
+using Attributes = std::vector<std::pair<const char*, std::string>>;
+
+/// Where the file comes from. No date: the same study gives the same file.
+Attributes provenance(const StudyPlan& plan, const std::map<std::string, std::string>& versions) {
+  const auto version = [&](const char* name) {
+    const auto found = versions.find(name);
+    return found == versions.end() ? std::string("unknown") : found->second;
+  };
+  const StudyConfig& study = *plan.study;
+  const std::string text = read_file(study.file).value_or(describe_study(study));
+  return {{"Conventions", "CF-1.8"},
+          {"title", study.title},
+          {"source", fmt::format("flexspline {}, commit {}, build {}", version("flexspline"),
+                                 version("commit"), version("build"))},
+          {"history", fmt::format("computed by flexspline from the study '{}'", study.name)},
+          {"study_sha256", data::sha256_hex(text)},
+          {"references", "study.lock.toml and ro-crate-metadata.json beside this file"}};
+}
+
+std::string write_table(const ResultsTable& table, const Attributes& attributes,
                         const std::filesystem::path& path) {
   NetcdfFile file(path);
-  file.text(NC_GLOBAL, "Conventions", "CF-1.8");
-  file.text(NC_GLOBAL, "title", title);
+  for (const auto& [name, value] : attributes) file.text(NC_GLOBAL, name, value);
   std::vector<int> dimensions;
   for (const Axis& axis : table.axes) {
     // A dimension of length 0 would mean unlimited.
     dimensions.push_back(axis.size() > 0 ? file.dimension(axis.name, axis.size()) : -1);
     if (axis.size() > 0) {
-      file.variable({axis.name, "", axis.unit, {}, axis.values, axis.labels}, {dimensions.back()});
+      file.coordinate(axis, dimensions.back());
     }
   }
   for (const Variable& variable : table.variables) {
@@ -89,11 +119,15 @@ std::string write_table(const ResultsTable& table, const std::string& title,
 }  // namespace
 
 Result<void> write_results(const StudyPlan& plan, std::span<const std::optional<CaseRow>> rows,
+                           const std::map<std::string, std::string>& versions,
                            const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "results.nc";
   const std::filesystem::path half = folder / ".results.nc.part";
+  const auto whole = writing();
   std::error_code error;
-  const std::string problem = write_table(gather_results(plan, rows), plan.study->title, half);
+  std::filesystem::remove(half, error);  // netCDF would write through a link
+  const std::string problem =
+      write_table(gather_results(plan, rows), provenance(plan, versions), half);
   if (problem.empty()) std::filesystem::rename(half, path, error);
   if (problem.empty() && !error) return {};
   std::error_code ignored;

@@ -79,6 +79,7 @@ ordered_json case_json(const CasePlan& plan, const PreparedInput* input,
       {"replicate", plan.replicate},
       {"seed", plan.seed},
       {"depends_on", plan.depends_on},
+      {"units", nullptr},
       {"status", done ? "done" : "failed"},
       {"failure", nullptr},
       {"estimate", nullptr},
@@ -88,7 +89,9 @@ ordered_json case_json(const CasePlan& plan, const PreparedInput* input,
     object["failure"] = error_json(outcome.estimate.error());
     return object;
   }
+  object["units"] = {{"motion", input->units.motion}, {"effort", input->units.effort}};
   object["estimate"] = data::to_json(*outcome.estimate, input->units);
+  object["estimate"].erase("seconds");  // wall_times: the same run gives the same bytes
   for (const RecordingComparison& comparison : outcome.recordings) {
     object["recordings"].push_back(recording_json(comparison, *input));
   }

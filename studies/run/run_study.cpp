@@ -17,6 +17,7 @@
 #include "results/results_table.hpp"
 #include "run/compute_case.hpp"
 #include "run/study_folder.hpp"
+#include "run/wall_times.hpp"
 #include "run/worker_pool.hpp"
 
 namespace flexspline::studies {
@@ -156,7 +157,9 @@ bool Run::write_case(const CasePlan& one, std::size_t number) {
   const nlohmann::ordered_json artefact = case_json(one, input, outcome);
   summary_.rows[number] = row_of(artefact);  // every case has its own
   const bool written =
-      finished(data::write_artefact(settings_.folder / "cases" / (one.key + ".json"), artefact));
+      finished(data::write_artefact(settings_.folder / "cases" / (one.key + ".json"), artefact)) &&
+      (!outcome.estimate ||
+       finished(add_wall_time(settings_.folder, one.key, outcome.estimate->seconds)));
   if (written) count_case(one, outcome);
   return written;
 }

@@ -28,7 +28,7 @@ json origin_of(const fs::path& folder) {
       if (artefact.contains(key)) origin[key] = artefact[key];
     }
     if (artefact.contains("dataset")) {
-      origin["datasets"][artefact["dataset"].value("name", "")] = artefact["dataset"];
+      origin["datasets"]["recordings"] = artefact["dataset"];
     }
     return origin;
   }
@@ -70,6 +70,21 @@ bool is_told_elsewhere(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<Circumstance> other_data(const fs::path& folder,
+                                     const std::map<std::string, std::string>& sha256) {
+  std::vector<Circumstance> other;
+  const json origin = origin_of(folder);
+  for (const auto& [id, now] : sha256) {
+    const json::json_pointer place = json::json_pointer("/datasets") / id / "sha256";
+    if (!origin.contains(place) || !origin[place].is_string()) continue;
+    const auto before = origin[place].get<std::string>();
+    if (before == now) continue;
+    other.push_back({"data", "datasets/" + id + "/sha256", before.substr(0, kToldOfHash),
+                     now.substr(0, kToldOfHash)});
+  }
+  return other;
+}
 
 std::vector<Circumstance> changed_circumstances(const fs::path& folder, const fs::path& against) {
   std::map<std::string, std::string> before, after;

@@ -9,6 +9,7 @@
 
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
+#include "flexspline/data/manifest.hpp"
 #include "flexspline/studies/verify.hpp"
 #include "verify/circumstances.hpp"
 
@@ -39,9 +40,11 @@ std::set<std::string> artefacts_in(const fs::path& folder) {
 Result<ordered_json> read_any(const fs::path& file) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
-  const auto content = ordered_json::parse(*text, nullptr, false);
-  if (!content.is_object()) return failure(ErrorCode::bad_data, "it is not JSON");
-  return data::read_artefact(file, content.value("schema", ""));
+  const auto content = data::parse_json(*text, file);
+  if (!content) return content;
+  const bool named =
+      content->is_object() && content->contains("schema") && content->at("schema").is_string();
+  return data::read_artefact(file, named ? content->at("schema").get<std::string>() : "");
 }
 
 ArtefactCheck broken(const std::string& name, const char* whose, const Error& error) {
@@ -108,6 +111,41 @@ std::string result_of(const Verification& verification) {
   return fmt::format("Of {} artefacts, {}.", verification.artefacts.size(), fmt::join(parts, ", "));
 }
 
+bool is_other_data(const Circumstance& one) {
+  return one.kind == "data" && one.name.ends_with("/sha256");
+}
+
+void enter(const data::ChangedFile& changed, Verification& verification) {
+  auto& checks = verification.artefacts;
+  auto check = std::ranges::find(checks, changed.file, &ArtefactCheck::artefact);
+  if (check == checks.end()) {
+    check = checks.insert(checks.end(), ArtefactCheck{.artefact = changed.file});
+  }
+  check->level = changed.missing ? Agreement::missing : Agreement::differs;
+  check->reason = changed.missing ? "it was written, and is gone"
+                                  : "it was changed after it was written (manifest.json)";
+  verification.level = std::max(verification.level, check->level);
+}
+
+/// Every file of the folder, drawn ones too, against what was written.
+void check_files(const fs::path& folder, Verification& verification) {
+  const auto manifest = data::read_manifest(folder);
+  if (!manifest || !manifest->finished) {
+    verification.says +=
+        fmt::format(" {}: results.nc, tables and pages were not checked.",
+                    manifest ? "The folder was never finished" : "There is no valid manifest.json");
+    return;
+  }
+  const auto changed = data::changed_files(folder, *manifest);
+  for (const data::ChangedFile& one : changed) enter(one, verification);
+  std::vector<std::string> names;
+  for (const data::ChangedFile& one : changed) names.push_back(one.file);
+  verification.says +=
+      names.empty() ? fmt::format(" All {} files are as they were written.", manifest->files.size())
+                    : fmt::format(" Of {} files, {} are not as they were written: {}.",
+                                  manifest->files.size(), names.size(), fmt::join(names, ", "));
+}
+
 }  // namespace
 
 std::string_view name_of(Agreement agreement) {
@@ -116,7 +154,16 @@ std::string_view name_of(Agreement agreement) {
   return names[static_cast<std::size_t>(agreement)];
 }
 
-bool Verification::holds() const { return level <= Agreement::statistical; }
+bool Verification::holds() const {
+  return level <= Agreement::statistical && std::ranges::none_of(changed, is_other_data);
+}
+
+Verification verify_on_other_data(const fs::path& folder, std::vector<Circumstance> other) {
+  Verification verification{folder.string(), "", Agreement::differs, {}, std::move(other), {}};
+  verification.says =
+      "The recordings are not those that this was made from. Nothing was computed again.";
+  return verification;
+}
 
 Result<Verification> verify_folders(const fs::path& folder, const fs::path& against) {
   Verification verification{folder.string(), against.string(), {}, {}, {}, {}};
@@ -133,6 +180,7 @@ Result<Verification> verify_folders(const fs::path& folder, const fs::path& agai
     verification.level = std::max(verification.level, verification.artefacts.back().level);
   }
   verification.says = result_of(verification) + " " + explanation_of(verification);
+  check_files(folder, verification);
   return verification;
 }
 

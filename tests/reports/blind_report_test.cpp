@@ -52,7 +52,7 @@ TEST(DiagnosisReport, TellsTheStoryInOrderFromTheOneArtefact) {
   const StudyFolder folder("diagnosis_fixture");
   const auto page = write_report(folder.path());
   ASSERT_TRUE(page) << page.error().message();
-  EXPECT_EQ(*page, folder.path() / "index.html");
+  EXPECT_EQ(page->page, folder.path() / "index.html");
   EXPECT_EQ(section_ids(folder),
             (std::vector<std::string>{"verdict", "differs-section", "left-out-section",
                                       "tried-section", "unseen-section", "confusable-section",
@@ -200,7 +200,7 @@ TEST(TrialReport, ShowsScoresConfusionAndEveryCase) {
   const StudyFolder folder("trial_fixture");
   const auto page = write_report(folder.path());
   ASSERT_TRUE(page) << page.error().message();
-  EXPECT_EQ(*page, folder.path() / "report" / "index.html");
+  EXPECT_EQ(page->page, folder.path() / "report" / "index.html");
   EXPECT_EQ(section_ids(folder),
             (std::vector<std::string>{"verdict", "confusion-section", "detection-section",
                                       "cases-section", "provenance-section"}));
@@ -283,7 +283,7 @@ TEST(VerificationReport, SaysWhatDiffersAndWhatMayExplainIt) {
   const StudyFolder folder("verification_fixture");
   const auto page = write_report(folder.path());
   ASSERT_TRUE(page) << page.error().message();
-  EXPECT_EQ(*page, folder.path() / "index.html");
+  EXPECT_EQ(page->page, folder.path() / "index.html");
   EXPECT_EQ(section_ids(folder),
             (std::vector<std::string>{"verdict", "explained-section", "checked-section"}));
   EXPECT_TRUE(contains(folder.text("index.html"), "It does not hold. Of 5 artefacts"));

@@ -49,7 +49,7 @@ TEST(WriteReport, HoldsEverySectionInOrderAndIsLight) {
   const StudyFolder study;
   const auto page = write_report(study.path());
   ASSERT_TRUE(page) << page.error().message();
-  EXPECT_EQ(*page, study.path() / "report" / "index.html");
+  EXPECT_EQ(page->page, study.path() / "report" / "index.html");
   EXPECT_EQ(section_ids(study), kAll);
   const std::string html = study.text("report/index.html");
   std::size_t at = 0;
@@ -132,10 +132,33 @@ TEST(WriteReport, NamesArtefactsThatCannotBeRead) {
   text.replace(text.find("\"seed\":7"), 8, "\"seed\":8");
   ASSERT_TRUE(write_file(spoilt, text));
   ASSERT_TRUE(write_file(study.path() / "cases" / "cut.json", "{\"schema\": "));
-  ASSERT_TRUE(write_report(study.path()));
+  const auto report = write_report(study.path());
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->left_out.size(), 2U);
   const std::string html = study.text("report/index.html");
   EXPECT_TRUE(contains(html, "cases/h_one--paper--r0.json: its checksum does not hold"));
-  EXPECT_TRUE(contains(html, "cases/cut.json: "));
+  EXPECT_TRUE(contains(html, "cases/cut.json: from line 1, column 12 on it is not JSON"));
+  EXPECT_TRUE(contains(html, "cut short or damaged"));
+  EXPECT_LT(html.find("artefacts cannot be read"), html.find("In short")) << "on top of the page";
+  EXPECT_TRUE(contains(html, "from 15 cases"));
+}
+
+// The lock file says which cases there are: one that is gone or empty is missed.
+TEST(WriteReport, MissesCasesThatTheLockNames) {
+  const StudyFolder study;
+  std::string lock = study.text("study.lock.toml") + "\n[cases]\n";
+  for (const auto& entry : fs::directory_iterator(study.path() / "cases")) {
+    lock += '"' + entry.path().stem().string() + "\" = \"0\"\n";
+  }
+  ASSERT_TRUE(write_file(study.path() / "study.lock.toml", lock));
+  EXPECT_TRUE(write_report(study.path())->left_out.empty());
+  fs::remove(study.path() / "cases" / "h_one--paper--r0.json");
+  fs::resize_file(study.path() / "cases" / "h_even--paper--r0.json", 0);
+  const auto report = write_report(study.path());
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->left_out.size(), 2U);
+  EXPECT_EQ(report->left_out.back(), "cases/h_one--paper--r0.json: it is missing");
+  EXPECT_TRUE(contains(study.text("report/index.html"), "from 14 cases"));
 }
 
 std::set<std::string> figure_ids(const StudyFolder& study) {

@@ -90,7 +90,8 @@ TEST_F(CommandLine, FolderThatCannotBeWrittenExitsWith73AndIsNamed) {
 }
 
 TEST_F(CommandLine, ListsEveryCatalogue) {
-  for (const char* name : {"effects", "laws", "rigs", "estimators", "kinds", "metrics", "truths"}) {
+  for (const char* name :
+       {"effects", "laws", "rigs", "estimators", "kinds", "metrics", "truths", "commands"}) {
     const Finished done = call(std::string("list --json ") + name);
     EXPECT_EQ(done.code, 0) << name;
     EXPECT_FALSE(nlohmann::json::parse(done.result).empty()) << name;

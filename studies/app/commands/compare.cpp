@@ -6,7 +6,9 @@
 
 #include "command.hpp"
 #include "dataset_study.hpp"
+#include "error_text.hpp"
 #include "flexspline/data/artefact.hpp"
+#include "output_folder.hpp"
 #include "run_folder.hpp"
 
 namespace flexspline::app {
@@ -23,19 +25,25 @@ std::vector<std::string> split_ids(const std::string& list) {
   return ids;
 }
 
+Result<ordered_json> case_of(const studies::StudyConfig& study,
+                             const studies::EstimatorConfig& estimator,
+                             const std::filesystem::path& folder) {
+  const std::string key = fmt::format("{}--{}--r0", study.inputs.front().id, estimator.id);
+  return data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+}
+
 /// rmse in percent of peak by recording and estimator, as the cases say.
 ordered_json table_of(const studies::StudyConfig& study, const std::filesystem::path& folder) {
   ordered_json rows = ordered_json::array();
   for (const studies::EstimatorConfig& estimator : study.estimators) {
-    const std::string key = fmt::format("{}--{}--r0", study.inputs.front().id, estimator.id);
-    const auto artefact =
-        data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+    const auto artefact = case_of(study, estimator, folder);
     if (!artefact) continue;
     for (const ordered_json& recording : artefact->at("recordings")) {
       rows.push_back({{"estimator", estimator.id},
                       {"role", recording.at("role")},
                       {"recording", recording.at("id")},
                       {"rmse", recording.at("rmse")},
+                      {"unit", artefact->at("units").at("effort")},
                       {"rmse_percent_of_peak", recording.at("rmse_percent_of_peak")}});
     }
   }
@@ -43,34 +51,44 @@ ordered_json table_of(const studies::StudyConfig& study, const std::filesystem::
 }
 
 std::string as_text(const ordered_json& rows) {
-  const auto number = [](const ordered_json& value) {
-    return value.is_null() ? std::string("-") : fmt::format("{:.4g}", value.get<double>());
-  };
-  std::string text = fmt::format("{:<24} {:<8} {:<28} {:>12} {:>10}", "estimator", "role",
-                                 "recording", "rmse", "% of peak");
+  std::string text =
+      fmt::format("{:<24} {:<8} {:<28} {}", "estimator", "role", "recording", "rmse of the effort");
   for (const ordered_json& row : rows) {
-    text +=
-        fmt::format("\n{:<24} {:<8} {:<28} {:>12} {:>10}", row.at("estimator").get<std::string>(),
-                    row.at("role").get<std::string>(), row.at("recording").get<std::string>(),
-                    number(row.at("rmse")), number(row.at("rmse_percent_of_peak")));
+    text += fmt::format("\n{:<24} {:<8} {:<28} {}", row.at("estimator").get<std::string>(),
+                        row.at("role").get<std::string>(), row.at("recording").get<std::string>(),
+                        error_text(row.at("rmse"), row.at("unit").get<std::string>(),
+                                   row.at("rmse_percent_of_peak")));
+  }
+  return text;
+}
+
+/// What the estimators say of their own results, "ID: note" each once.
+std::string all_notes(const studies::StudyConfig& study, const std::filesystem::path& folder) {
+  std::string text;
+  for (const studies::EstimatorConfig& estimator : study.estimators) {
+    const auto artefact = case_of(study, estimator, folder);
+    if (!artefact || artefact->at("status") != "done") continue;
+    const std::string notes = notes_text(artefact->at("estimate").at("notes"));
+    if (!notes.empty()) text += "\n" + estimator.id + notes;
   }
   return text;
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
-  const Result<long> jobs = jobs_of(arguments);
-  if (!jobs) return tl::unexpected(jobs.error());
+  const auto where = folder_run(arguments, "compare");
+  if (!where) return tl::unexpected(where.error());
   const std::vector<std::string> ids = split_ids(arguments.text("estimators"));
   if (ids.empty()) return failure(ErrorCode::usage, "--estimators names none", "give ID,ID,…");
   const auto study =
       dataset_study(arguments.text("dataset"), ids, arguments.text("train", "all"), {});
   if (!study) return tl::unexpected(study.error());
-  const std::filesystem::path folder = arguments.text("out");
   std::filesystem::path report;
-  const auto summary = run_in_folder(*study, folder, *jobs, console, report);
+  const auto summary = run_in_folder(*study, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
-  const ordered_json rows = table_of(*study, folder);
-  console.result(console.json ? rows.dump(2) : as_text(rows) + "\n" + report.string());
+  const ordered_json rows = table_of(*study, where->folder);
+  console.result(console.json
+                     ? rows.dump(2)
+                     : as_text(rows) + all_notes(*study, where->folder) + "\n" + report.string());
   return summary->failed.empty() ? kDone : kSomethingFailed;
 }
 
@@ -94,6 +112,7 @@ CommandRow describe_compare() {
                          .meaning = "folder for artefacts and report",
                          .value = "DIR",
                          .required = true},
+                        kForce,
                         {.name = "--jobs", .meaning = "workers", .value = "N"}},
           .example =
               "flexspline compare recordings/band-damper --estimators trajectory_ceres,bouc_wen "

@@ -44,8 +44,8 @@ std::string for_fish() {
     for (const ArgumentInfo& argument : row.arguments) {
       if (!argument.name.starts_with("--")) continue;
       text += fmt::format(
-          "complete -c flexspline -n \"__fish_seen_subcommand_from {}\" -l {} -r -d \"{}\"\n",
-          row.id, argument.name.substr(2), argument.meaning);
+          "complete -c flexspline -n \"__fish_seen_subcommand_from {}\" -l {}{} -d \"{}\"\n",
+          row.id, argument.name.substr(2), argument.is_flag() ? "" : " -r", argument.meaning);
     }
   }
   text.pop_back();

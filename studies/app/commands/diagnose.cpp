@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -12,20 +11,15 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/reports/report.hpp"
-#include "stop_signal.hpp"
+#include "output_folder.hpp"
 
 namespace flexspline::app {
 namespace {
 
 using studies::Diagnosis;
 
-/// Nothing has been written while a diagnosis runs: where it is to stop, it is dropped.
 studies::DiagnosisProgress progress_on(Console& console) {
   return [&console](double share, std::string_view stage) {
-    if (stop_requested()) {
-      console.error("interrupted; nothing was written");
-      std::_Exit(static_cast<int>(ErrorCode::interrupted));
-    }
     const std::string text = fmt::format("{:3.0f} %  {}", 100.0 * share, stage);
     console.live(text);
     if (!console.is_terminal()) console.detail(text);
@@ -47,22 +41,35 @@ Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
     const auto model = data::write_model(folder / "model.toml", *diagnosis.model);
     if (!model) return tl::unexpected(model.error());
   }
-  return reports::write_report(folder);
+  const auto report = reports::write_report(folder);
+  if (!report) return tl::unexpected(report.error());
+  return report->page;
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto recordings = data::load_dataset(arguments.text("dataset"));
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
-  catch_stop_signals();
   const auto engine = engine_of(arguments);
   if (!engine) return tl::unexpected(engine.error());
+  const std::filesystem::path dataset = arguments.text("dataset");
+  auto output = OutputFolder::claim({"diagnose",
+                                     arguments.text("out"),
+                                     recordings->name,
+                                     recordings->sha256,
+                                     dataset,
+                                     {dataset},
+                                     arguments.has("force")});
+  if (!output) return tl::unexpected(output.error());
   const auto diagnosis = (*engine)(*recordings, progress_on(console));
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
   console.say(
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
   const auto page = write_diagnosis(*diagnosis, arguments.text("out"));
   if (!page) return tl::unexpected(page.error());
+  std::vector<std::string> files = {"diagnosis.json", "index.html", "report", "tables"};
+  if (diagnosis->model) files.emplace_back("model.toml");
+  if (auto done = output->finish(files); !done) return tl::unexpected(done.error());
   console.result(console.json ? diagnosis_artefact(*diagnosis).dump(2)
                               : summary_of(*diagnosis) + "\n" + page->string());
   return kDone;
@@ -89,7 +96,8 @@ CommandRow describe_diagnose() {
                          .value = "ID",
                          .repeats = true},
                         engine_argument(),
-                        interest_argument()},
+                        interest_argument(),
+                        kForce},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};
 }

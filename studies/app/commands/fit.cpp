@@ -7,10 +7,12 @@
 
 #include "command.hpp"
 #include "dataset_study.hpp"
+#include "error_text.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/estimate_json.hpp"
 #include "flexspline/data/model_toml.hpp"
+#include "output_folder.hpp"
 #include "run_folder.hpp"
 #include "servo_set.hpp"
 
@@ -31,12 +33,16 @@ Result<void> write_estimate(const std::filesystem::path& folder, const ordered_j
 /// The estimate of a case with the errors in effort of every recording, train and hold-out.
 ordered_json estimate_of(const ordered_json& artefact) {
   ordered_json estimate = artefact.at("estimate");
-  ordered_json rmse = {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}};
-  for (const ordered_json& recording : artefact.at("recordings")) {
-    rmse[recording.at("role").get<std::string>()][recording.at("id").get<std::string>()] =
-        recording.at("rmse");
+  const ordered_json roles = {{"train", ordered_json::object()},
+                              {"holdout", ordered_json::object()}};
+  for (const char* metric : {"rmse", "rmse_percent_of_peak"}) {
+    estimate[metric] = roles;
+    for (const ordered_json& recording : artefact.at("recordings")) {
+      estimate[metric][recording.at("role").get<std::string>()]
+              [recording.at("id").get<std::string>()] = recording.at(metric);
+    }
   }
-  estimate["rmse"] = rmse;
+  estimate["error_unit"] = artefact.at("units").at("effort");
   return estimate;
 }
 
@@ -67,7 +73,8 @@ std::string pooled_line(const ordered_json& estimate, const char* role) {
   if (!estimate.contains("pooled_rmse")) return {};
   const auto& pooled = estimate.at("pooled_rmse").at(role);
   if (pooled.is_null()) return {};
-  return fmt::format("\n  {:<8} {:<28} rmse {:.4g}", role, "all samples", pooled.get<double>());
+  return fmt::format("\n  {:<8} {:<28} rmse {}", role, "all samples",
+                     error_text(pooled, estimate.value("error_unit", ""), nullptr));
 }
 
 std::string summary_of(const ordered_json& estimate) {
@@ -77,13 +84,13 @@ std::string summary_of(const ordered_json& estimate) {
                   estimate.at("identifiability").value("says", ""));
   for (const char* role : {"train", "holdout"}) {
     for (const auto& [id, value] : estimate.at("rmse").at(role).items()) {
-      text += fmt::format(
-          "\n  {:<8} {:<28} rmse {}", role, id,
-          value.is_null() ? "not computed" : fmt::format("{:.4g}", value.get<double>()));
+      text += fmt::format("\n  {:<8} {:<28} rmse {}", role, id,
+                          error_text(value, estimate.value("error_unit", ""),
+                                     estimate.at("rmse_percent_of_peak").at(role).at(id)));
     }
     text += pooled_line(estimate, role);
   }
-  return text;
+  return text + notes_text(estimate.at("notes"));
 }
 
 /// Either an estimator of the catalogue or the form of a model file.
@@ -130,29 +137,46 @@ std::optional<Result<ExitCode>> run_on_servo(const Arguments& arguments,
   if (!model) return std::nullopt;
   auto set = data::load_dataset(arguments.text("dataset"));
   if (!set || set->rig != Rig::servo) return std::nullopt;
-  return fit_servo_set(std::move(*set), *model, study.inputs.front().held_out, options,
-                       arguments.text("out"), console);
+  const std::filesystem::path dataset = arguments.text("dataset");
+  auto output = OutputFolder::claim({"fit",
+                                     arguments.text("out"),
+                                     set->name,
+                                     set->sha256,
+                                     dataset,
+                                     {dataset, arguments.text("model")},
+                                     arguments.has("force")});
+  if (!output) return tl::unexpected(output.error());
+  const auto code = fit_servo_set(std::move(*set), *model, study.inputs.front().held_out, options,
+                                  arguments.text("out"), console);
+  if (!code) return code;
+  return output->finish(std::vector<std::string>{"model.toml", "estimate.json"}).map([&] {
+    return *code;
+  });
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
-  const Result<long> jobs = jobs_of(arguments);
-  if (!jobs) return tl::unexpected(jobs.error());
+  auto where = folder_run(arguments, "fit");
+  if (!where) return tl::unexpected(where.error());
+  if (arguments.has("model")) where->read.emplace_back(arguments.text("model"));
   const auto options = parse_options(arguments.texts("option"));
   if (!options) return tl::unexpected(options.error());
   const auto study = study_of(arguments, on_servo(arguments) ? estimators::Options{} : *options);
   if (!study) return tl::unexpected(study.error());
   if (auto servo = run_on_servo(arguments, *study, *options, console)) return *std::move(servo);
-  const std::filesystem::path folder = arguments.text("out");
+  const std::filesystem::path& folder = where->folder;
   const std::string key =
       fmt::format("{}--{}--r0", study->inputs.front().id, study->estimators.front().id);
   ordered_json estimate;
   // The estimate is what was asked for; drawing a report takes longer than many fits.
-  const auto write = [&](const studies::RunSummary& summary) -> Result<void> {
+  where->when_computed = [&](const studies::RunSummary& summary) -> Result<void> {
     if (!summary.failed.empty()) return {};
     const auto artefact =
         data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
     if (!artefact) return tl::unexpected(artefact.error());
     estimate = estimate_of(*artefact);
+    const auto times = studies::wall_times(folder);
+    const auto time = times.find(key);
+    estimate["seconds"] = time == times.end() ? ordered_json(nullptr) : ordered_json(time->second);
     if (study->estimators.front().model) {
       const auto set = data::load_dataset(arguments.text("dataset"));
       if (!set) return tl::unexpected(set.error());
@@ -161,7 +185,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
     return write_estimate(folder, estimate);
   };
   std::filesystem::path report;
-  const auto summary = run_in_folder(*study, folder, *jobs, console, report, write);
+  const auto summary = run_in_folder(*study, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
   if (!summary->failed.empty()) return kSomethingFailed;
   console.result(console.json ? estimate.dump(2) : summary_of(estimate) + "\n" + report.string());
@@ -208,6 +232,7 @@ CommandRow describe_fit() {
                          .meaning = "folder for estimate and report",
                          .value = "DIR",
                          .required = true},
+                        kForce,
                         {.name = "--jobs", .meaning = "workers", .value = "N"}},
           .example = "flexspline fit recordings/iiwa-j1 --estimator trajectory_ceres --out out/j1",
           .run = run};

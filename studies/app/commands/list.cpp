@@ -16,6 +16,7 @@
 #include "flexspline/estimators/method.hpp"
 #include "flexspline/studies/kind.hpp"
 #include "flexspline/studies/metric.hpp"
+#include "output_folder.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -125,6 +126,25 @@ ordered_json list_exporters() {
   return list;
 }
 
+ordered_json list_commands() {
+  ordered_json list = ordered_json::array();
+  for (const CommandRow& row : commands()) {
+    ordered_json arguments = ordered_json::array();
+    for (const ArgumentInfo& one : row.arguments) {
+      arguments.push_back({{"name", one.name},
+                           {"takes", one.value},
+                           {"required", one.required},
+                           {"repeats", one.repeats},
+                           {"says", one.meaning}});
+    }
+    list.push_back({{"id", row.id},
+                    {"says", row.summary},
+                    {"example", row.example},
+                    {"arguments", arguments}});
+  }
+  return list;
+}
+
 struct Catalogue {
   std::string_view name;
   ordered_json (*rows)();
@@ -133,13 +153,17 @@ struct Catalogue {
 constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_laws},
                                      {"rigs", list_rigs},       {"estimators", list_estimators},
                                      {"kinds", list_kinds},     {"metrics", list_metrics},
-                                     {"truths", list_truths},   {"exporters", list_exporters}};
+                                     {"truths", list_truths},   {"exporters", list_exporters},
+                                     {"commands", list_commands}};
 
-Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder,
+Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder, bool force,
                              Console& console) {
   if (catalogue != "effects") {
     return failure(ErrorCode::usage, fmt::format("--pages: '{}' has no pages", catalogue),
                    "only effects have");
+  }
+  if (!force) {
+    if (auto checked = check_effect_pages(folder); !checked) return tl::unexpected(checked.error());
   }
   if (auto done = write_effect_pages(folder); !done) return tl::unexpected(done.error());
   console.result(folder);
@@ -155,7 +179,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
     return failure(ErrorCode::usage, fmt::format("there is no catalogue '{}'", name),
                    suggestion(name, names));
   }
-  if (arguments.has("pages")) return write_pages(name, arguments.text("pages"), console);
+  if (arguments.has("pages")) {
+    return write_pages(name, arguments.text("pages"), arguments.has("force"), console);
+  }
   const ordered_json rows = found->rows();
   console.result(console.json ? rows.dump(2) : catalogue_text(rows));
   return kDone;
@@ -166,15 +192,17 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_list() {
   return {.id = "list",
           .summary =
-              "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths, exporters",
+              "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths, exporters, "
+              "commands",
           .arguments = {{.name = "catalogue",
-                         .meaning =
-                             "effects, laws, rigs, estimators, kinds, metrics, truths or exporters",
+                         .meaning = "effects, laws, rigs, estimators, kinds, metrics, truths, "
+                                    "exporters or commands",
                          .value = "CATALOGUE",
                          .required = true},
                         {.name = "--pages",
                          .meaning = "writes a page for every effect to this folder instead",
-                         .value = "DIR"}},
+                         .value = "DIR"},
+                        kForce},
           .example = "flexspline list estimators",
           .run = run};
 }

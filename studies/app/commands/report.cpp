@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "output_folder.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -10,9 +11,16 @@ namespace {
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto page = reports::write_report(arguments.text("dir"));
   if (!page) return tl::unexpected(page.error());
-  console.result(console.json ? nlohmann::ordered_json{{"report", page->string()}}.dump(2)
-                              : page->string());
-  return kDone;
+  const std::vector<std::string> drawn = {"report", "tables", "index.html"};
+  if (auto done = refresh_manifest(arguments.text("dir"), drawn); !done) {
+    return tl::unexpected(done.error());
+  }
+  for (const std::string& one : page->left_out) console.error("left out: " + one);
+  const std::string path = page->page.string();
+  console.result(
+      console.json ? nlohmann::ordered_json{{"report", path}, {"left_out", page->left_out}}.dump(2)
+                   : path);
+  return page->left_out.empty() ? kDone : kSomethingFailed;
 }
 
 }  // namespace

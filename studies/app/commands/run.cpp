@@ -2,18 +2,19 @@
 
 #include "command.hpp"
 #include "flexspline/studies/study_config.hpp"
+#include "output_folder.hpp"
 #include "run_folder.hpp"
 
 namespace flexspline::app {
 namespace {
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
-  const Result<long> jobs = jobs_of(arguments);
-  if (!jobs) return tl::unexpected(jobs.error());
+  const auto where = folder_run(arguments, "run");
+  if (!where) return tl::unexpected(where.error());
   const auto study = studies::load_study(arguments.text("study"), arguments.text("data-root"));
   if (!study) return tl::unexpected(study.error());
   std::filesystem::path report;
-  const auto summary = run_in_folder(*study, arguments.text("out"), *jobs, console, report);
+  const auto summary = run_in_folder(*study, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
   if (console.json) {
     const nlohmann::ordered_json text = {
@@ -38,6 +39,7 @@ CommandRow describe_run() {
             .meaning = "folder for artefacts and report",
             .value = "DIR",
             .required = true},
+           kForce,
            {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
            {.name = "--data-root",
             .meaning = "where relative data-set paths start; default: the study file's folder",

@@ -1,13 +1,17 @@
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "diagnosis_engine.hpp"
+#include "flexspline/core/write_file.hpp"
+#include "flexspline/data/checksum.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/studies/trial.hpp"
+#include "output_folder.hpp"
 #include "run_folder.hpp"
 #include "stop_signal.hpp"
 #include "version.hpp"
@@ -91,7 +95,7 @@ Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesyste
   const TrialScores scores = studies::score_trial(summary.cases);
   if (console.json) {
     nlohmann::ordered_json text = {{"trial", (folder / "trial.json").string()},
-                                   {"report", page->string()},
+                                   {"report", page->page.string()},
                                    {"cases", summary.run.cases},
                                    {"computed", summary.run.computed},
                                    {"reused", summary.run.reused},
@@ -103,9 +107,22 @@ Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesyste
     console.result(text.dump(2));
   } else {
     console.say(summary_of(summary));
-    console.result(page->string());
+    console.result(page->page.string());
   }
   return summary.run.failed.empty() && summary.not_concealed.empty() ? kDone : kSomethingFailed;
+}
+
+Result<OutputFolder> claim_for(const studies::TrialConfig& trial, const char* command,
+                               const std::filesystem::path& folder, const Arguments& arguments) {
+  const auto text = read_file(trial.file);
+  if (!text) return tl::unexpected(text.error());
+  return OutputFolder::claim({command,
+                              folder,
+                              trial.name,
+                              data::sha256_hex(*text),
+                              trial.file,
+                              {trial.file},
+                              arguments.has("force")});
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
@@ -113,10 +130,17 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!jobs) return tl::unexpected(jobs.error());
   const auto trial = studies::load_trial(arguments.text("study"), arguments.text("data-root"));
   if (!trial) return tl::unexpected(trial.error());
-  catch_stop_signals();
   const studies::TrialSettings settings = settings_of(arguments, *jobs, console);
   const auto engine = engine_of(arguments, static_cast<int>(*jobs));
   if (!engine) return tl::unexpected(engine.error());
+  auto output = claim_for(*trial, "trial", settings.run.folder, arguments);
+  if (!output) return tl::unexpected(output.error());
+  std::optional<OutputFolder> recordings;
+  if (!settings.recordings.empty()) {
+    auto kept = claim_for(*trial, "trial --recordings", settings.recordings, arguments);
+    if (!kept) return tl::unexpected(kept.error());
+    recordings.emplace(std::move(*kept));
+  }
   const auto summary = studies::run_trial(*trial, settings, *engine);
   if (!summary) return tl::unexpected(summary.error());
   if (summary->run.interrupted) {
@@ -125,7 +149,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
                                summary->run.computed + summary->run.reused, summary->run.cases),
                    "the same command goes on from here");
   }
-  return show(*summary, settings.run.folder, console);
+  const auto code = show(*summary, settings.run.folder, console);
+  if (!code) return code;
+  const std::vector<std::string> files = {"trial.json", "cases", "commitments", "report", "tables"};
+  return output->finish(files).map([&] { return *code; });
 }
 
 }  // namespace
@@ -140,6 +167,7 @@ CommandRow describe_trial() {
             .meaning = "folder for cases, scores and tables",
             .value = "DIR",
             .required = true},
+           kForce,
            {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
            {.name = "--data-root",
             .meaning = "folder of the data sets to splice into; default: the trial file's",

@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,11 +8,13 @@
 #include "command.hpp"
 #include "diagnosis_artefact.hpp"
 #include "flexspline/data/artefact.hpp"
+#include "flexspline/data/checksum.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "flexspline/studies/verify.hpp"
+#include "output_folder.hpp"
 #include "run_folder.hpp"
 #include "stop_signal.hpp"
 #include "version.hpp"
@@ -35,14 +39,17 @@ studies::RunSettings settings_of(const fs::path& again, long jobs, Console& cons
   return settings;
 }
 
-Result<void> unless_interrupted(bool interrupted) {
-  if (!interrupted) return {};
+/// A second computation; or the verification that there was no use in one.
+using Again = Result<std::optional<studies::Verification>>;
+
+Again unless_interrupted(bool interrupted) {
+  if (!interrupted) return std::nullopt;
   return failure(ErrorCode::interrupted, "interrupted; nothing was compared",
                  "the same command begins anew");
 }
 
-Result<void> run_study_again(const Arguments& arguments, const studies::RunSettings& settings,
-                             Console& console) {
+Again run_study_again(const Arguments& arguments, const studies::RunSettings& settings,
+                      Console& console) {
   const auto study =
       arguments.has("study")
           ? studies::load_study(arguments.text("study"), arguments.text("data-root"))
@@ -51,13 +58,19 @@ Result<void> run_study_again(const Arguments& arguments, const studies::RunSetti
   if (!study) return tl::unexpected(study.error());
   const auto plan = studies::plan_study(*study, build_id());
   if (!plan) return tl::unexpected(plan.error());
+  std::map<std::string, std::string> sums;
+  for (const auto& [id, set] : plan->datasets) sums[id] = set.sha256;
+  const fs::path folder = arguments.text("dir");
+  if (auto other = studies::other_data(folder, sums); !other.empty()) {
+    return studies::verify_on_other_data(folder, std::move(other));
+  }
   const auto summary = studies::run_study(*plan, settings);
   if (!summary) return tl::unexpected(summary.error());
   for (const std::string& failed : summary->failed) console.detail(failed);
   return unless_interrupted(summary->interrupted);
 }
 
-Result<void> run_trial_again(const Arguments& arguments, const studies::RunSettings& settings) {
+Again run_trial_again(const Arguments& arguments, const studies::RunSettings& settings) {
   if (!arguments.has("study")) {
     return failure(ErrorCode::usage, "a trial's folder does not say which file it came from",
                    "add --study TRIAL.toml");
@@ -79,28 +92,31 @@ Result<std::vector<std::string>> held_out_by(const fs::path& folder) {
                          std::vector<std::string>{});
 }
 
-Result<void> diagnose_again(const Arguments& arguments, const fs::path& again) {
+Again diagnose_again(const Arguments& arguments, const fs::path& again) {
   if (!arguments.has("dataset")) {
     return failure(ErrorCode::usage, "a diagnosis does not say where its recordings lie",
                    "add --dataset DATASET");
   }
   const auto recordings = data::load_dataset(arguments.text("dataset"));
   if (!recordings) return tl::unexpected(recordings.error());
-  const auto holdout = held_out_by(arguments.text("dir"));
+  const fs::path folder = arguments.text("dir");
+  auto other = studies::other_data(folder, {{"recordings", recordings->sha256}});
+  if (!other.empty()) return studies::verify_on_other_data(folder, std::move(other));
+  const auto holdout = held_out_by(folder);
   if (!holdout) return tl::unexpected(holdout.error());
   const auto diagnosis = studies::diagnose(*recordings, {}, 0, *holdout);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
-  return data::write_artefact(again / "diagnosis.json", diagnosis_artefact(*diagnosis));
+  return data::write_artefact(again / "diagnosis.json", diagnosis_artefact(*diagnosis))
+      .map([]() -> std::optional<studies::Verification> { return std::nullopt; });
 }
 
 /// What the folder says, computed once more into another one.
-Result<void> run_again(const Arguments& arguments, const fs::path& again, Console& console) {
+Again run_again(const Arguments& arguments, const fs::path& again, Console& console) {
   const fs::path folder = arguments.text("dir");
   const Result<long> jobs = jobs_of(arguments);
   if (!jobs) return tl::unexpected(jobs.error());
   std::error_code ignored;
   fs::remove_all(again, ignored);
-  catch_stop_signals();
   const studies::RunSettings settings = settings_of(again, *jobs, console);
   if (fs::exists(folder / "diagnosis.json")) return diagnose_again(arguments, again);
   if (fs::exists(folder / "trial.json")) return run_trial_again(arguments, settings);
@@ -123,25 +139,52 @@ std::string text_of(const studies::Verification& verification) {
   return text;
 }
 
+/// Its own folder alone: the second run in it is removed before a third.
+Result<OutputFolder> claim_for(const Arguments& arguments, const fs::path& out) {
+  const fs::path folder = arguments.text("dir");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    return failure(ErrorCode::input_missing, fmt::format("there is no folder {}", folder.string()),
+                   "give the folder that run, fit, compare, diagnose or trial wrote");
+  }
+  const std::string place = fs::canonical(folder, error).string();
+  OutputWish wish{"verify", out, folder.filename().string(), data::sha256_hex(place), folder, {}};
+  if (out != folder / "verification") wish.read.push_back(folder);
+  for (const char* one : {"study", "dataset", "against"}) {
+    if (arguments.has(one)) wish.read.emplace_back(arguments.text(one));
+  }
+  return OutputFolder::claim(wish);
+}
+
+Result<studies::Verification> verified(const Arguments& arguments, const fs::path& out,
+                                       Console& console) {
+  const fs::path folder = arguments.text("dir");
+  if (arguments.has("against")) {
+    return studies::verify_folders(folder, arguments.text("against"));
+  }
+  auto done = run_again(arguments, out / "again", console);
+  if (!done) return tl::unexpected(done.error());
+  if (*done) return **std::move(done);
+  return studies::verify_folders(folder, out / "again");
+}
+
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const fs::path folder = arguments.text("dir");
   const fs::path out = arguments.text("out", (folder / "verification").string());
-  fs::path against = arguments.text("against");
-  if (against.empty()) {
-    against = out / "again";
-    if (auto done = run_again(arguments, against, console); !done) {
-      return tl::unexpected(in_context(done.error(), "verify"));
-    }
-  }
-  const auto verification = studies::verify_folders(folder, against);
-  if (!verification) return tl::unexpected(verification.error());
+  auto output = claim_for(arguments, out);
+  if (!output) return tl::unexpected(output.error());
+  const auto verification = verified(arguments, out, console);
+  if (!verification) return tl::unexpected(in_context(verification.error(), "verify"));
   const auto json = to_json(*verification);
   if (auto written = data::write_artefact(out / "verification.json", json); !written) {
     return tl::unexpected(written.error());
   }
   const auto page = reports::write_report(out);
   if (!page) return tl::unexpected(page.error());
-  console.result(console.json ? json.dump(2) : text_of(*verification) + "\n" + page->string());
+  const std::vector<std::string> files = {"verification.json", "index.html", "report", "tables",
+                                          "again"};
+  if (auto done = output->finish(files); !done) return tl::unexpected(done.error());
+  console.result(console.json ? json.dump(2) : text_of(*verification) + "\n" + page->page.string());
   return verification->holds() ? kDone : kSomethingFailed;
 }
 

@@ -10,6 +10,6 @@ int main(int argc, char** argv) {
     std::cerr << page.error().message() << '\n';
     return static_cast<int>(page.error().code);
   }
-  std::cout << page->string() << '\n';
+  std::cout << page->page.string() << '\n';
   return 0;
 }

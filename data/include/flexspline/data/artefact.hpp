@@ -14,6 +14,10 @@ namespace flexspline::data {
 /// Errors: cannot_write.
 Result<void> write_artefact(const std::filesystem::path& path, nlohmann::ordered_json content);
 
+/// JSON of a file that has been read.
+/// Errors: bad_data with file, line and column, for what is not JSON.
+Result<nlohmann::ordered_json> parse_json(std::string_view text, const std::filesystem::path& path);
+
 /// The content of an artefact without its checksum.
 /// Errors: input_missing when there is no such file; bad_data, naming the file, when it is not
 /// JSON, has another schema, or its checksum does not hold.

@@ -159,7 +159,7 @@ struct Artefacts {
   std::vector<Input> inputs;
   std::vector<Case> cases;
   std::optional<Paper> paper;
-  std::vector<std::string> unreadable;  ///< artefacts left out, each with the reason
+  std::vector<std::string> unreadable;  ///< "cases/a.json: reason" of every one that is left out
 };
 
 /// Reads what a folder holds, files in alphabetical order. A file that cannot be read is named in

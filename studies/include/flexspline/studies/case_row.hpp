@@ -11,6 +11,7 @@ struct CaseRow {
     std::string name;
     double value = 0.0;  ///< SI, or as scaled by its law
     double std = 0.0;
+    std::string unit{};
   };
   struct Recording {
     std::string id;
@@ -18,7 +19,9 @@ struct CaseRow {
     double amplitude = 0.0;
     double frequency_hz = 0.0;
     double error_percent = 0.0;  ///< against the truth where one is known, else what was measured
+    double error = 0.0;          ///< the same, Nm (N)
   };
+  bool linear = false;  ///< errors are forces, N
   std::vector<Parameter> parameters;
   std::vector<Recording> recordings;
 };

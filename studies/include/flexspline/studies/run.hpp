@@ -52,4 +52,8 @@ struct RunSummary {
 /// Errors: cannot_write.
 Result<RunSummary> run_study(const StudyPlan& plan, const RunSettings& settings);
 
+/// How long the fit of each case took, s, by its key: seconds.csv of a study's folder. It lies
+/// beside the cases, so that these are the same bytes in every run.
+std::map<std::string, double> wall_times(const std::filesystem::path& folder);
+
 }  // namespace flexspline::studies

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -68,7 +69,7 @@ struct Verification {
   std::vector<ArtefactCheck> artefacts;
 
   /// Whether DIR says what the study gives: to within rounding, or as closely as changed
-  /// circumstances let it.
+  /// circumstances let it. Never where the recordings are others.
   bool holds() const;
 };
 
@@ -78,10 +79,20 @@ ArtefactCheck compare_artefacts(const nlohmann::ordered_json& before,
                                 const nlohmann::ordered_json& after, bool something_changed);
 
 /// Compares every artefact of two folders of one kind (study, fit, comparison, diagnosis, trial).
-/// An artefact whose checksum does not hold differs, and says so.
+/// An artefact whose checksum does not hold differs, and says so; so does every other file of the
+/// first that its manifest says was written otherwise.
 /// Errors: input_missing where the first holds no artefact.
 Result<Verification> verify_folders(const std::filesystem::path& folder,
                                     const std::filesystem::path& against);
+
+/// Data sets, by their ids and the SHA-256 of their contents, that are not what a folder was made
+/// from. A diagnosis calls its only one "recordings".
+std::vector<Circumstance> other_data(const std::filesystem::path& folder,
+                                     const std::map<std::string, std::string>& sha256);
+
+/// The verification of a folder on other data: nothing is compared.
+Verification verify_on_other_data(const std::filesystem::path& folder,
+                                  std::vector<Circumstance> other);
 
 /// flexspline-verification/1 (docs/artefacts.md).
 nlohmann::ordered_json to_json(const Verification& verification);
