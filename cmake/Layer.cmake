@@ -8,7 +8,7 @@ function(flexspline_warnings target)
 endfunction()
 
 function(flexspline_layer name)
-  cmake_parse_arguments(ARG "" "" "FOLDERS;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "FOLDERS;LINKS;PRIVATE_LINKS;PRECOMPILED" ${ARGN})
   set(sources "")
   foreach(folder IN LISTS ARG_FOLDERS)
     file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
@@ -21,4 +21,15 @@ function(flexspline_layer name)
   target_compile_features(flexspline_${name} PUBLIC cxx_std_20)
   target_link_libraries(flexspline_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
   flexspline_warnings(flexspline_${name})
+  flexspline_precompile(flexspline_${name} ${ARG_PRECOMPILED})
+endfunction()
+
+# Half of the time that a file takes goes into the headers that every file reads.
+option(FLEXSPLINE_PRECOMPILED_HEADERS "precompile heavy headers" ON)
+
+function(flexspline_precompile target)
+  if(FLEXSPLINE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <functional> <map>
+      <memory> <optional> <span> <string> <string_view> <utility> <vector> <tl/expected.hpp> ${ARGN})
+  endif()
 endfunction()

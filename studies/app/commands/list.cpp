@@ -150,11 +150,10 @@ struct Catalogue {
   ordered_json (*rows)();
 };
 
-constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_laws},
-                                     {"rigs", list_rigs},       {"estimators", list_estimators},
-                                     {"kinds", list_kinds},     {"metrics", list_metrics},
-                                     {"truths", list_truths},   {"exporters", list_exporters},
-                                     {"commands", list_commands}};
+constexpr Catalogue kCatalogues[] = {
+    {"effects", list_effects},       {"laws", list_laws},           {"rigs", list_rigs},
+    {"estimators", list_estimators}, {"kinds", list_kinds},         {"metrics", list_metrics},
+    {"truths", list_truths},         {"exporters", list_exporters}, {"commands", list_commands}};
 
 Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder, bool force,
                              Console& console) {
