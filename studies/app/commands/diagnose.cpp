@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "diagnosis_artefact.hpp"
+#include "diagnosis_engine.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
@@ -87,7 +88,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
   catch_stop_signals();
-  const auto diagnosis = studies::diagnose(*recordings, progress_on(console));
+  const auto engine = engine_of(arguments);
+  if (!engine) return tl::unexpected(engine.error());
+  const auto diagnosis = (*engine)(*recordings, progress_on(console));
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
   console.say(
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
@@ -112,7 +115,9 @@ CommandRow describe_diagnose() {
                         {.name = "--out",
                          .meaning = "folder for diagnosis.json, model.toml and the report",
                          .value = "DIR",
-                         .required = true}},
+                         .required = true},
+                        engine_argument(),
+                        interest_argument()},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};
 }

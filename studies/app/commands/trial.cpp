@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "diagnosis_engine.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "run_folder.hpp"
@@ -56,7 +57,7 @@ studies::TrialSettings settings_of(const Arguments& arguments, long jobs, Consol
   studies::TrialSettings settings;
   settings.run.folder = arguments.text("out");
   settings.run.jobs = static_cast<int>(jobs);
-  settings.run.build_id = build_id();
+  settings.run.build_id = build_id() + arguments.text("engine") + arguments.text("interest");
   settings.run.versions = versions();
   settings.run.stop = &stop_requested();
   settings.run.progress = [&console](const studies::Progress& progress) {
@@ -100,7 +101,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!trial) return tl::unexpected(trial.error());
   catch_stop_signals();
   const studies::TrialSettings settings = settings_of(arguments, *jobs, console);
-  const auto summary = studies::run_trial(*trial, settings);
+  const auto engine = engine_of(arguments, static_cast<int>(*jobs));
+  if (!engine) return tl::unexpected(engine.error());
+  const auto summary = studies::run_trial(*trial, settings, *engine);
   if (!summary) return tl::unexpected(summary.error());
   if (summary->run.interrupted) {
     return failure(ErrorCode::interrupted,
@@ -124,6 +127,8 @@ CommandRow describe_trial() {
             .value = "DIR",
             .required = true},
            {.name = "--jobs", .meaning = "cases at once; default: all processors", .value = "N"},
+           engine_argument(),
+           interest_argument(),
            {.name = "--recordings",
             .meaning = "keep every case's data set in this folder; "
                        "default: none is kept",

@@ -1,0 +1,73 @@
+#include "diagnosis_engine.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "flexspline/core/in_parallel.hpp"
+#include "flexspline/studies/decision.hpp"
+#include "quantity_text.hpp"
+
+namespace flexspline::app {
+namespace {
+
+constexpr double kLeastInterest = 1e-4;
+constexpr double kMostInterest = 0.5;
+
+Result<double> interest_of(const Arguments& arguments) {
+  const auto share =
+      parse_quantity("--interest", arguments.text("interest", "0.8 %"), Dimension::dimensionless);
+  if (share && !(*share >= kLeastInterest && *share <= kMostInterest)) {
+    return failure(
+        ErrorCode::usage,
+        fmt::format("--interest is {:g} %, which is not from 0.01 to 50 %", 100.0 * *share),
+        "give a share of the largest torque, --interest 0.8%");
+  }
+  return share;
+}
+
+}  // namespace
+
+ArgumentInfo engine_argument() {
+  return {.name = "--engine",
+          .meaning =
+              "what decides: rules, or evidence (one mixed model; docs/diagnosis.md); "
+              "default: rules",
+          .value = "NAME"};
+}
+
+ArgumentInfo interest_argument() {
+  return {.name = "--interest",
+          .meaning =
+              "with --engine evidence: share of the largest torque below which nothing is a "
+              "finding; default: 0.8 %",
+          .value = "SHARE"};
+}
+
+Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs) {
+  const std::string name = arguments.text("engine", "rules");
+  if (name != "rules" && name != "evidence") {
+    return failure(ErrorCode::usage, fmt::format("--engine is '{}'", name),
+                   "give rules or evidence");
+  }
+  if (name == "rules" && arguments.has("interest")) {
+    return failure(ErrorCode::usage, "--interest is for --engine evidence",
+                   "leave it out, or add --engine evidence");
+  }
+  const auto interest = interest_of(arguments);
+  if (!interest) return tl::unexpected(interest.error());
+  const auto found = static_cast<int>(threads_for(0));
+  const auto threads = static_cast<unsigned>(std::max(1, jobs > 0 ? found / jobs : 1));
+  if (name == "rules") {
+    return [threads](const RecordingSet& recordings, const studies::DiagnosisProgress& progress) {
+      return studies::diagnose(recordings, progress, threads);
+    };
+  }
+  return [threads, share = *interest](const RecordingSet& recordings,
+                                      const studies::DiagnosisProgress& progress) {
+    return studies::diagnose_by_evidence(recordings, progress,
+                                         {.interest = share, .threads = threads});
+  };
+}
+
+}  // namespace flexspline::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "command.hpp"
+#include "flexspline/studies/trial.hpp"
+
+namespace flexspline::app {
+
+/// What decides a diagnosis, and below which share of torque nothing interests.
+ArgumentInfo engine_argument();
+ArgumentInfo interest_argument();
+
+/// The engine that was asked for; jobs: cases that are diagnosed side by side.
+/// Errors: usage, an engine that there is not, a share out of range or for the engine that has
+/// none.
+Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs = 1);
+
+}  // namespace flexspline::app
