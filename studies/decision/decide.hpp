@@ -12,10 +12,10 @@ namespace flexspline::studies::decision {
 
 /// A cause that is named, with its class.
 struct Named {
-  std::size_t cause = 0;     ///< of the model
-  double gain = 0.0;         ///< of score over the model without it
-  double probability = 0.0;  ///< of its class
-  double size = 0.0;         ///< 99th percentile of what it adds, over the largest torque
+  std::size_t cause = 0;                  ///< of the model
+  double gain = 0.0;                      ///< of score over the model without it
+  double probability = 0.0;               ///< of its class
+  double size = 0.0;                      ///< largest of what it adds, over the largest torque
   std::vector<std::string> alternatives;  ///< the others of its class, at most two
   double stability = kNotComputed;        ///< share of outer folds that name it or one of them
 };

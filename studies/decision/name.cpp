@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "decision/decide.hpp"
-#include "diagnosis/middle.hpp"
 
 namespace flexspline::studies::decision {
 namespace {
@@ -31,12 +30,11 @@ double size_of(const Bench& bench, const Fit& fit, std::size_t i) {
     const VectorXd adds =
         changes ? VectorXd(columns[e].col(0)) : VectorXd(columns[e] * cause.coefficients);
     const auto& rows = bench.equations[e].rows.row;
-    std::vector<double> sizes;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (std::abs(before.torsion[rows[r]]) > reach) continue;
-      sizes.push_back(std::abs(adds[static_cast<Eigen::Index>(r)]));
+      const double share = std::abs(adds[static_cast<Eigen::Index>(r)]);
+      size = std::max(size, share / (100.0 * bench.equations[e].unit));
     }
-    size = std::max(size, percentile(std::move(sizes), 0.99) / (100.0 * bench.equations[e].unit));
   }
   return size;
 }

@@ -83,8 +83,8 @@ TEST(Evidence, RestrictedLikelihoodFindsAKnownVariance) {
   const std::vector<Component> components = {{"torsion", "", 0, kEffects},
                                              {"load", "", kEffects, 40}};
   const std::vector<Gram> grams = {gram_of(z, MatrixXd(4000, 0), y)};
-  const auto fit = fit_variances(grams, std::vector{components}, {},
-                                 {(VectorXd(2) << 0.05, 0.05).finished()}, 40);
+  const std::vector<std::vector<Component>> of_one = {components};
+  const auto fit = fit_variances(grams, of_one, {}, {(VectorXd(2) << 0.05, 0.05).finished()}, 40);
   EXPECT_NEAR(fit.ratio[0][0] * fit.solution.noise[0], kVariance,
               3.0 * kVariance * std::sqrt(2.0 / kEffects));
   EXPECT_LT(fit.ratio[0][1], 0.01);

@@ -30,7 +30,7 @@ TEST(DiagnoseByEvidence, NamesAndProvesWhatWasLeftOut) {
   EXPECT_EQ(d.causes.front().effect, "inertia_torque");
   EXPECT_EQ(d.causes.size(), 1U);
   EXPECT_EQ(d.verdict, Verdict::explained) << d.says;
-  EXPECT_NEAR(d.causes.front().size_fraction, hidden.answer.size.front(), 0.02);
+  EXPECT_NEAR(d.causes.front().size_fraction, hidden.answer.effects.front().size_fraction, 0.02);
   EXPECT_LT(d.holdout.ratio, 1.0);
   EXPECT_LT(d.holdout.rmse_after, 1.15 * hidden.answer.noise_std);
   EXPECT_TRUE(d.model.has_value());
