@@ -15,7 +15,7 @@ namespace flexspline::python {
 namespace {
 
 /// The artefact as text, and the model.
-using Outcome = std::pair<std::string, std::optional<ModelSpec>>;
+using Outcome = std::pair<std::string, std::optional<RigModel>>;
 
 estimators::FitProblem problem_of(const RecordingSet& set, const std::vector<std::string>& train,
                                   const estimators::Options& options) {
@@ -39,7 +39,10 @@ Outcome fit(const RecordingSet& set, const std::string& method,
   interruptible(
       [result, row, problem = problem_of(set, train, options)] { *result = row->fit(problem); });
   const Estimate estimate = value_of(std::move(*result));
-  return {data::to_json(estimate, set.display).dump(), estimate.model};
+  RigModel model;
+  model.rig = Rig::specimen;
+  model.drive.torsion = estimate.model;
+  return {data::to_json(estimate, set.display).dump(), std::move(model)};
 }
 
 Outcome diagnose(const RecordingSet& set, unsigned threads) {

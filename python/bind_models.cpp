@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "flexspline/core/drive_spec.hpp"
 #include "flexspline/core/simulate.hpp"
 #include "flexspline/data/model_toml.hpp"
 
@@ -23,29 +24,31 @@ Array simulated(std::function<Result<std::vector<double>>()> simulate) {
   return Array(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-Array torque_of(const ModelSpec& model, const Array& time, const Array& position,
+Array torque_of(const RigModel& model, const Array& time, const Array& position,
                 const Array& velocity, const Array& acceleration) {
-  return simulated(
-      [model, motion = Motion{values_of(time), values_of(position), values_of(velocity),
-                              values_of(acceleration)}] { return simulate_torque(model, motion); });
+  return simulated([model, motion = Motion{values_of(time), values_of(position),
+                                           values_of(velocity), values_of(acceleration)}] {
+    return simulate_torque(torsion, motion);
+  });
 }
 
-Array torsion_of(const ModelSpec& model, const Array& time, const Array& torque, double initial) {
-  return simulated([model, instants = values_of(time), torques = values_of(torque), initial] {
-    return simulate_torsion(model, instants, torques, initial);
-  });
+Array torsion_of(const RigModel& model, const Array& time, const Array& torque, double initial) {
+  return simulated([torsion = model.drive.torsion, instants = values_of(time),
+                    torques = values_of(torque),
+                    initial] { return simulate_torsion(torsion, instants, torques, initial); });
 }
 
 }  // namespace
 
 void bind_models(py::module_& module) {
-  py::class_<ModelSpec>(module, "Model")
-      .def_property_readonly("toml", &data::model_toml)
+  py::class_<RigModel>(module, "Model")
+      .def_property_readonly("toml", [](const RigModel& model) { return data::model_toml(model); })
+      .def_property_readonly("rig", [](const RigModel& model) { return name_of(model.rig); })
       .def_property_readonly(
           "effects",
-          [](const ModelSpec& model) {
+          [](const RigModel& model) {
             std::map<std::string, std::map<std::string, double>> effects;
-            for (const EffectSpec& one : model.effects) {
+            for (const EffectSpec& one : model.drive.torsion.effects) {
               effects[one.effect] = {one.parameters.begin(), one.parameters.end()};
             }
             return effects;
@@ -54,10 +57,10 @@ void bind_models(py::module_& module) {
            py::arg("acceleration"))
       .def("torsion", &torsion_of, py::arg("time"), py::arg("torque"), py::arg("initial") = 0.0);
   module.def("read_model",
-             [](const std::string& file) { return value_of(data::read_model(file)); });
+             [](const std::string& file) { return value_of(data::read_rig_model(file)); });
   module.def("parse_model",
-             [](const std::string& text) { return value_of(data::parse_model(text, "text")); });
-  module.def("write_model", [](const std::string& file, const ModelSpec& model) {
+             [](const std::string& text) { return value_of(data::parse_rig_model(text, "text")); });
+  module.def("write_model", [](const std::string& file, const RigModel& model) {
     value_of(data::write_model(file, model));
   });
 }

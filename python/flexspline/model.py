@@ -37,6 +37,11 @@ class Model:
         return self._core.toml
 
     @property
+    def rig(self) -> str:
+        """The bench that the model simulates; a torsion law alone is a specimen."""
+        return str(self._core.rig)
+
+    @property
     def effects(self) -> dict[str, dict[str, float]]:
         """Parameters in SI units by effect."""
         return self._core.effects

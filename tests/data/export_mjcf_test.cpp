@@ -109,7 +109,7 @@ TEST_F(InMuJoCo, WeightOffsetAndGainOfTheMotorAreHeld) {
 // compared.
 TEST_F(InMuJoCo, WhatIsLostIsWhatTheEngineLacks) {
   RigModel model = example_model(Rig::free);
-  model.drive.torsion.g_inverse = law_spec("power_law", 0.05, {}, {4.0, 0.5});
+  model.drive.torsion.g_inverse = law_spec("power_law", 0.05, {4.0, 0.5});
   const Carried c = carried("mjcf", model);
   EXPECT_EQ(c.lost.size(), 3u) << "g^-1, h, the width of dry friction";
   const Recording input = excitation(1.5, 10.0);
