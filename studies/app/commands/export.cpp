@@ -6,10 +6,12 @@
 
 #include "command.hpp"
 #include "flexspline/core/write_file.hpp"
+#include "flexspline/data/checksum.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/exporter.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/studies/export_error.hpp"
+#include "output_folder.hpp"
 #include "version.hpp"
 
 namespace flexspline::app {
@@ -62,19 +64,30 @@ Result<std::string> identifier(const Arguments& arguments) {
                  "letters, digits and _, a letter first: it names C functions and files");
 }
 
-Result<void> write_files(const std::vector<data::ExportedFile>& files,
+/// A folder for one form of one model, neither of which it writes to.
+Result<OutputFolder> claim_for(const Arguments& arguments) {
+  const std::filesystem::path model = arguments.text("model");
+  const auto text = read_file(model);
+  if (!text) return tl::unexpected(text.error());
+  OutputWish wish{"export --to " + arguments.text("to"),
+                  arguments.text("out"),
+                  model.filename().string(),
+                  data::sha256_hex(*text),
+                  model,
+                  {model},
+                  arguments.has("force")};
+  if (arguments.has("like")) wish.read.emplace_back(arguments.text("like"));
+  return OutputFolder::claim(wish);
+}
+
+Result<void> write_files(const std::vector<data::ExportedFile>& files, OutputFolder& output,
                          const std::filesystem::path& folder) {
-  for (const data::ExportedFile& file : files) {
-    if (exists(folder / file.path)) {
-      return failure(ErrorCode::cannot_write,
-                     fmt::format("{} is there already", (folder / file.path).string()),
-                     "give another folder, or move it away");
-    }
-  }
+  std::vector<std::string> names;
   for (const data::ExportedFile& file : files) {
     if (auto written = write_file(folder / file.path, file.content); !written) return written;
+    names.push_back(file.path);
   }
-  return {};
+  return output.finish(names);
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
@@ -98,7 +111,11 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto files = (*exporter)->write(carried->model, head);
   if (!files) return tl::unexpected(files.error());
   const std::filesystem::path folder = arguments.text("out");
-  if (auto written = write_files(*files, folder); !written) return tl::unexpected(written.error());
+  auto output = claim_for(arguments);
+  if (!output) return tl::unexpected(output.error());
+  if (auto written = write_files(*files, *output, folder); !written) {
+    return tl::unexpected(written.error());
+  }
   ordered_json paths = ordered_json::array();
   for (const auto& file : *files) paths.push_back((folder / file.path).string());
   console.result(console.json
@@ -130,7 +147,8 @@ CommandRow describe_export() {
            {.name = "--like",
             .meaning = "also compare the torques along this data set's held-out "
                        "recordings",
-            .value = "DATASET"}},
+            .value = "DATASET"},
+           kForce},
       .example = "flexspline export out/diagnosis/model.toml --to mjcf --out out/mujoco",
       .run = run};
 }
