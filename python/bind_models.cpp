@@ -26,10 +26,10 @@ Array simulated(std::function<Result<std::vector<double>>()> simulate) {
 
 Array torque_of(const RigModel& model, const Array& time, const Array& position,
                 const Array& velocity, const Array& acceleration) {
-  return simulated([model, motion = Motion{values_of(time), values_of(position),
-                                           values_of(velocity), values_of(acceleration)}] {
-    return simulate_torque(torsion, motion);
-  });
+  return simulated(
+      [torsion = model.drive.torsion,
+       motion = Motion{values_of(time), values_of(position), values_of(velocity),
+                       values_of(acceleration)}] { return simulate_torque(torsion, motion); });
 }
 
 Array torsion_of(const RigModel& model, const Array& time, const Array& torque, double initial) {
