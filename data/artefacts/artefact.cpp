@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/checksum.hpp"
 
@@ -60,6 +61,7 @@ Result<void> write_artefact(const std::filesystem::path& path, Json content) {
 Result<Json> read_artefact(const std::filesystem::path& path, std::string_view schema) {
   const Result<std::string> text = read_file(path);
   if (!text) return tl::unexpected<Error>(text.error());
+  if (const auto flat = check_nesting(*text); !flat) return refused(path, flat.error().problem);
   Json content = Json::parse(*text, nullptr, false);
   if (!content.is_object()) return refused(path, "not a JSON object; it may be cut short");
   if (!has_text(content, "schema", schema)) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/locked_json.hpp"
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/studies/verify.hpp"
 
@@ -102,6 +103,9 @@ bool has_model(const json& study) {
 Result<json> read_lock_json(const fs::path& lock) {
   const auto text = read_file(lock);
   if (!text) return tl::unexpected(text.error());
+  if (const auto flat = check_nesting(*text); !flat) {
+    return tl::unexpected(in_context(flat.error(), lock.string()));
+  }
   try {
     std::ostringstream out;
     out << toml::json_formatter{toml::parse(*text, lock.string())};

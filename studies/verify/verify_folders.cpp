@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/studies/verify.hpp"
@@ -39,6 +40,7 @@ std::set<std::string> artefacts_in(const fs::path& folder) {
 Result<ordered_json> read_any(const fs::path& file) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
+  if (const auto flat = check_nesting(*text); !flat) return tl::unexpected(flat.error());
   const auto content = ordered_json::parse(*text, nullptr, false);
   if (!content.is_object()) return failure(ErrorCode::bad_data, "it is not JSON");
   return data::read_artefact(file, content.value("schema", ""));

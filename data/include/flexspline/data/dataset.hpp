@@ -26,7 +26,8 @@ struct Finding {
 struct DatasetReading {
   std::optional<RecordingSet> set;  ///< present only when there are no errors
   std::vector<Finding> errors;
-  std::vector<Finding> notes;  ///< e.g. columns that were ignored
+  std::vector<Finding> notes;          ///< e.g. columns that were ignored
+  std::vector<std::string> decisions;  ///< those of the notes that become notes of the set
 };
 
 /// Reads a data set of format "flexspline-dataset/1": folder with dataset.toml and CSV tables.
@@ -42,6 +43,9 @@ Result<RecordingSet> load_dataset(const std::filesystem::path& folder);
 /// remarks do not count. Values are rounded to 30 binary digits (1e-9), so that the same data
 /// written in another unit hash alike but for one rounding in four million values.
 std::string content_hash(const RecordingSet& set);
+
+/// The unit in which a person reads the quantity: a display unit where it fits, else SI.
+Unit display_unit(Quantity quantity, const DisplayUnits& display);
 
 /// Writes a data set: dataset.toml and one CSV a recording, each written whole and renamed.
 Result<void> write_dataset(const std::filesystem::path& folder, const RecordingSet& set);
