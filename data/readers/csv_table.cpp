@@ -148,10 +148,6 @@ class Parser {
 
   void add_column(const Cell& cell) {
     std::string name = is_utf8(cell.text) ? std::string(cell.text) : utf8_of_latin1(cell.text);
-    if (std::ranges::find(table_.header, name) != table_.header.end()) {
-      refuse(cell.column, fmt::format("column '{}' stands here twice", shown(name)),
-             "give each column a name of its own");
-    }
     table_.header.push_back(std::move(name));
   }
 
@@ -169,13 +165,23 @@ class Parser {
       if (wanted_[w].role == CsvRole::valid) valid_ = w;
     }
     values_.resize(wanted_.size());
-    if (std::ranges::find(place_, kNowhere) == place_.end()) return true;
-    if (const auto foreign = foreign_header(line_, cells_.size())) {
+    const bool complete = std::ranges::find(place_, kNowhere) == place_.end();
+    if (const auto foreign = complete ? std::nullopt : foreign_header(line_, cells_.size())) {
       refuse(1, foreign->problem, foreign->remedy);
       return false;
     }
+    refuse_twins();
     refuse_missing();
     return true;
+  }
+
+  void refuse_twins() {
+    for (std::size_t i = 1; i < table_.header.size(); ++i) {
+      const auto here = table_.header.begin() + static_cast<std::ptrdiff_t>(i);
+      if (std::find(table_.header.begin(), here, *here) == here) continue;
+      refuse(cells_[i].column, fmt::format("column '{}' stands here twice", shown(*here)),
+             "give each column a name of its own");
+    }
   }
 
   void refuse_missing() {

@@ -61,7 +61,7 @@ DatasetReading read_dataset(const std::filesystem::path& folder) {
   return reading;
 }
 
-Result<RecordingSet> load_dataset(const std::filesystem::path& folder) {
+Result<RecordingSet> load_dataset(const std::filesystem::path& folder, std::size_t most_rows) {
   std::error_code error;
   if (!std::filesystem::exists(description_of(folder), error)) {
     return failure(ErrorCode::input_missing,
@@ -69,7 +69,10 @@ Result<RecordingSet> load_dataset(const std::filesystem::path& folder) {
                    "name a folder that holds one");
   }
   DatasetReading reading = read_dataset(folder);
-  if (reading.set) return *std::move(reading.set);
+  if (reading.set) {
+    thin_recordings(*reading.set, most_rows);
+    return *std::move(reading.set);
+  }
   std::string findings;
   for (const Finding& finding : reading.errors) findings += "\n  " + finding.message();
   return failure(ErrorCode::bad_data,

@@ -46,6 +46,7 @@ InputConfig input_from(const json& from, const fs::path& data_root) {
   input.truth = from.at("truth");
   input.dataset = found(from.at("dataset"), data_root);
   input.holdout = from.at("holdout");
+  input.rows = from.value("rows", data::kMostRows);
   if (from.contains("held_out")) {
     input.held_out = from.at("held_out").get<std::vector<std::string>>();
   }

@@ -56,6 +56,7 @@ ordered_json to_json(const StudyConfig& study) {
                       {"dataset", input.dataset.generic_string()},
                       {"holdout", input.holdout}});
     if (input.held_out) inputs.back()["held_out"] = *input.held_out;
+    if (input.rows != data::kMostRows) inputs.back()["rows"] = input.rows;
   }
   ordered_json& rows = object["estimator"] = ordered_json::array();
   for (const EstimatorConfig& row : study.estimators) {

@@ -31,6 +31,7 @@ TEST_P(Refuses, NamingThePlace) {
       bad.in_table ? kDescription : with(kDescription, bad.piece, std::string(bad.instead)));
   put("a.csv",
       bad.in_table ? with(sound_table(), bad.piece, std::string(bad.instead)) : sound_table());
+  put("b.csv", sound_table());
   const DatasetReading reading = read_dataset(folder_);
   EXPECT_FALSE(reading.set.has_value());
   ASSERT_EQ(reading.errors.size(), 1U)
@@ -68,7 +69,7 @@ const Refusal kInDescription[] = {
      "sign is 2; give 1 or -1"},
     {"channel_scale", "unit = \"deg\"", "unit = \"deg\", scale = -2", false, "dataset.toml:11:59",
      "scale is -2; give 1e-12 to 1e12; a direction belongs into sign"},
-    {"channel_of_time", "unit = \"s\"", "unit = \"s\", sign = -1", false, "dataset.toml:10:47",
+    {"channel_of_time", "unit = \"s\"", "unit = \"s\", sign = -1", false, "dataset.toml:10:45",
      "a time takes no sign"},
     {"counts_bare", "unit = \"deg\"", "unit = \"counts\"", false, "dataset.toml:11:9",
      "no 'counts_per_rev' here"},
@@ -95,14 +96,14 @@ const Refusal kInDescription[] = {
     {"id_absent", "id = \"a\"", "", false, "dataset.toml:14:1", "no 'id'"},
     {"id_empty", "id = \"a\"", "id = \"\"", false, "dataset.toml:15:6", "is empty"},
     {"id_twice", "frequency_hz = 0.5",
-     "frequency_hz = 0.5\n[[recording]]\nid = \"a\"\nfile = \"x.csv\"", false, "dataset.toml:21:6",
+     "frequency_hz = 0.5\n[[recording]]\nid = \"a\"\nfile = \"b.csv\"", false, "dataset.toml:21:6",
      "two recordings have the id 'a', the other on line 15"},
     {"file_twice", "frequency_hz = 0.5",
      "frequency_hz = 0.5\n[[recording]]\nid = \"b\"\nfile = \"./a.csv\"", false,
      "dataset.toml:22:8", "two recordings have the file './a.csv', the other on line 16"},
     {"file_absent", "file = \"a.csv\"", "", false, "dataset.toml:14:1", "no 'file'"},
-    {"file_missing", "\"a.csv\"", "\"b.csv\"", false, "dataset.toml:16:8",
-     "file 'b.csv' is not there"},
+    {"file_missing", "\"a.csv\"", "\"c.csv\"", false, "dataset.toml:16:8",
+     "file 'c.csv' is not there"},
     {"file_absolute", "\"a.csv\"", "\"/etc/hostname\"", false, "dataset.toml:16:8", "absolute"},
     {"file_climbs", "\"a.csv\"", "\"../a.csv\"", false, "dataset.toml:16:8",
      "climbs out of the folder"},

@@ -62,15 +62,17 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!jobs) return tl::unexpected(jobs.error());
   const std::vector<std::string> ids = split_ids(arguments.text("estimators"));
   if (ids.empty()) return failure(ErrorCode::usage, "--estimators names none", "give ID,ID,…");
-  const auto study =
-      dataset_study(arguments.text("dataset"), ids, arguments.text("train", "all"), {});
+  const auto rows = rows_of(arguments);
+  if (!rows) return tl::unexpected(rows.error());
+  auto study = dataset_study(arguments.text("dataset"), ids, arguments.text("train", "all"), {});
   if (!study) return tl::unexpected(study.error());
+  study->inputs.front().rows = *rows;
   const std::filesystem::path folder = arguments.text("out");
   std::filesystem::path report;
   const auto summary = run_in_folder(*study, folder, *jobs, console, report);
   if (!summary) return tl::unexpected(summary.error());
-  const ordered_json rows = table_of(*study, folder);
-  console.result(console.json ? rows.dump(2) : as_text(rows) + "\n" + report.string());
+  const ordered_json table = table_of(*study, folder);
+  console.result(console.json ? table.dump(2) : as_text(table) + "\n" + report.string());
   return summary->failed.empty() ? kDone : kSomethingFailed;
 }
 
@@ -94,6 +96,7 @@ CommandRow describe_compare() {
                          .meaning = "folder for artefacts and report",
                          .value = "DIR",
                          .required = true},
+                        rows_argument(),
                         {.name = "--jobs", .meaning = "workers", .value = "N"}},
           .example =
               "flexspline compare recordings/band-damper --estimators trajectory_ceres,bouc_wen "

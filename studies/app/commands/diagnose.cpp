@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "dataset_study.hpp"
 #include "diagnosis_artefact.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
@@ -83,7 +84,9 @@ std::string summary_of(const Diagnosis& diagnosis) {
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
-  const auto recordings = data::load_dataset(arguments.text("dataset"));
+  const auto rows = rows_of(arguments);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto recordings = data::load_dataset(arguments.text("dataset"), *rows);
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
   catch_stop_signals();
@@ -112,7 +115,8 @@ CommandRow describe_diagnose() {
                         {.name = "--out",
                          .meaning = "folder for diagnosis.json, model.toml and the report",
                          .value = "DIR",
-                         .required = true}},
+                         .required = true},
+                        rows_argument()},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};
 }

@@ -98,9 +98,12 @@ Result<studies::StudyConfig> study_of(const Arguments& arguments,
                    "give one: an id of flexspline list estimators, or a model file whose numbers "
                    "are starts");
   }
+  const auto rows = rows_of(arguments);
+  if (!rows) return tl::unexpected(rows.error());
   auto study = dataset_study(arguments.text("dataset"), {estimator}, arguments.text("train", "all"),
                              options);
   if (!study) return study;
+  study->inputs.front().rows = *rows;
   const auto held = arguments.texts("holdout");
   if (held == std::vector<std::string>{"none"}) {
     study->inputs.front().held_out.emplace();
@@ -128,7 +131,7 @@ std::optional<Result<ExitCode>> run_on_servo(const Arguments& arguments,
                                              const estimators::Options& options, Console& console) {
   const auto& model = study.estimators.front().model;
   if (!model) return std::nullopt;
-  auto set = data::load_dataset(arguments.text("dataset"));
+  auto set = data::load_dataset(arguments.text("dataset"), study.inputs.front().rows);
   if (!set || set->rig != Rig::servo) return std::nullopt;
   return fit_servo_set(std::move(*set), *model, study.inputs.front().held_out, options,
                        arguments.text("out"), console);
@@ -154,7 +157,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
     if (!artefact) return tl::unexpected(artefact.error());
     estimate = estimate_of(*artefact);
     if (study->estimators.front().model) {
-      const auto set = data::load_dataset(arguments.text("dataset"));
+      const auto set = data::load_dataset(arguments.text("dataset"), study->inputs.front().rows);
       if (!set) return tl::unexpected(set.error());
       estimate["pooled_rmse"] = pooled_of(estimate, *set);
     }
@@ -204,6 +207,7 @@ CommandRow describe_fit() {
                         {.name = "--train",
                          .meaning = "all training recordings, or the one with the largest motion",
                          .value = "all|one"},
+                        rows_argument(),
                         {.name = "--out",
                          .meaning = "folder for estimate and report",
                          .value = "DIR",

@@ -51,7 +51,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   DisplayUnits units;
   Result<std::vector<Excitation>> excitations = std::vector<Excitation>{};
   if (arguments.has("like")) {
-    const auto set = data::load_dataset(arguments.text("like"));
+    const auto set = data::load_dataset(arguments.text("like"), data::kAllRows);
     if (!set) return tl::unexpected(set.error());
     units = set->display;
     excitations = excitations_like(*set);

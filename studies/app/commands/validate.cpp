@@ -10,6 +10,7 @@
 #include "flexspline/data/commitment.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
+#include "flexspline/data/sanity.hpp"
 #include "flexspline/studies/conceal.hpp"
 #include "flexspline/studies/plan.hpp"
 #include "flexspline/studies/trial.hpp"
@@ -42,6 +43,10 @@ Verdict check_dataset(const std::filesystem::path& folder) {
   if (!reading.set) return verdict;
   verdict.understood = dataset_summary(*reading.set);
   verdict.text = summary_text(verdict.understood);
+  for (const data::SanityFinding& one : data::sanity_of(*reading.set)) {
+    auto& list = one.severity == data::Severity::error ? verdict.errors : verdict.notes;
+    list.push_back(one.message());
+  }
   return verdict;
 }
 

@@ -34,9 +34,20 @@ struct DatasetReading {
 /// Refuses what the format says must be refused, naming file, line and column.
 DatasetReading read_dataset(const std::filesystem::path& folder);
 
-/// The same for callers that go no further on a failure.
+/// Rows of a recording that commands use where nothing else is asked for.
+inline constexpr std::size_t kMostRows = 20000;
+inline constexpr std::size_t kAllRows = 0;
+
+/// Every k-th row of recordings that have more than `most`, with a note for each in the set and its
+/// checksum that of what is left. Samples stay as they were measured: nothing is filtered, so noise
+/// stays white and reversals sharp; what is faster than half of the new rate is aliased.
+void thin_recordings(RecordingSet& set, std::size_t most);
+
+/// A data set for callers that go no further on a failure, thinned to a most of rows a recording
+/// (or kAllRows).
 /// Errors: input_missing when there is no such folder or description, bad_data with every finding.
-Result<RecordingSet> load_dataset(const std::filesystem::path& folder);
+Result<RecordingSet> load_dataset(const std::filesystem::path& folder,
+                                  std::size_t most_rows = kMostRows);
 
 /// SHA-256 of what the recordings say: rig, constants, and of every recording, by id, its split,
 /// nominal excitation and samples in SI. Names of folders, files and columns, their order and
