@@ -1,6 +1,5 @@
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "flexspline/core/rig_residuals.hpp"
 #include "signals/smoothing.hpp"
@@ -15,11 +14,13 @@ struct Smoothed {
   Series& rate;
   Series& second;
 
-  void fill(const Recording& recording, const Series& samples) const {
-    SmoothSignal smooth = smooth_by_spline(recording.time, samples);
-    value = std::move(smooth.value);
-    rate = std::move(smooth.rate);
-    second = std::move(smooth.second);
+  Result<void> fill(const Recording& recording, const Series& samples) const {
+    auto smooth = smooth_by_spline(recording.time, samples);
+    if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + recording.id));
+    value = std::move(smooth->value);
+    rate = std::move(smooth->rate);
+    second = std::move(smooth->second);
+    return {};
   }
 };
 
@@ -58,28 +59,30 @@ void follow_rigidly(double ratio, const Series& load, Series& motor) {
   std::ranges::transform(load, motor.begin(), [&](double x) { return ratio * x; });
 }
 
+// Angles with their derivatives, as far as they were recorded.
+Result<void> smooth_motions(Rig rig, const Recording& recording, DriveChannels& c) {
+  const Series* torsion =
+      rig == Rig::specimen
+          ? first_of(recording, {Quantity::torsion, Quantity::displacement, Quantity::angle})
+          : nullptr;
+  const std::pair<const Series*, Smoothed> motions[] = {
+      {recording.find(Quantity::motor_angle), {c.motor_angle, c.motor_speed, c.motor_acceleration}},
+      {recording.find(Quantity::load_angle), {c.load_angle, c.load_speed, c.load_acceleration}},
+      {torsion, {c.torsion, c.torsion_rate, c.torsion_acceleration}}};
+  for (const auto& [samples, smoothed] : motions) {
+    if (samples == nullptr) continue;
+    if (auto filled = smoothed.fill(recording, *samples); !filled) return filled;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording) {
-  if (recording.time.size() < 16) {
-    return failure(ErrorCode::numerics,
-                   fmt::format("recording {} has {} samples", recording.id, recording.time.size()),
-                   "derivatives need 16 or more");
-  }
   DriveChannels c;
   c.time = recording.time;
-  if (const Series* motor = recording.find(Quantity::motor_angle)) {
-    Smoothed{c.motor_angle, c.motor_speed, c.motor_acceleration}.fill(recording, *motor);
-  }
-  if (const Series* load = recording.find(Quantity::load_angle)) {
-    Smoothed{c.load_angle, c.load_speed, c.load_acceleration}.fill(recording, *load);
-  }
-  if (rig == Rig::specimen) {
-    const Series* motion =
-        first_of(recording, {Quantity::torsion, Quantity::displacement, Quantity::angle});
-    if (motion != nullptr) {
-      Smoothed{c.torsion, c.torsion_rate, c.torsion_acceleration}.fill(recording, *motion);
-    }
+  if (auto smooth = smooth_motions(rig, recording, c); !smooth) {
+    return tl::unexpected(smooth.error());
   }
   if (rig == Rig::servo && c.motor_angle.empty()) {
     follow_rigidly(drive.gear_ratio, c.load_angle, c.motor_angle);

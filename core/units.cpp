@@ -56,6 +56,7 @@ constexpr Unit kUnits[] = {
     {"Ncm", torque, 1e-2, 0.0},
     {"Nmm", torque, 1e-3, 0.0},
     {"lbf in", torque, kPound* kInch, 0.0},
+    {"lbf ft", torque, kPound * 12.0 * kInch, 0.0},
     {"N", force, 1.0, 0.0},
     {"mN", force, 1e-3, 0.0},
     {"kN", force, 1e3, 0.0},
@@ -69,12 +70,31 @@ constexpr Unit kUnits[] = {
     {"degF", temperature, 5.0 / 9.0, 459.67 * 5.0 / 9.0},
 };
 
+/// Other ways in which benches write a unit, none of which can mean another one.
+constexpr std::pair<std::string_view, std::string_view> kOtherSpellings[] = {
+    {"sec", "s"},         {"µs", "us"},  // micro sign; below, the Greek letter
+    {"μs", "us"},         {"°", "deg"},         {"µrad", "urad"},     {"μrad", "urad"},
+    {"µm", "um"},         {"μm", "um"},         {"°/s", "deg/s"},     {"1/min", "rpm"},
+    {"r/min", "rpm"},     {"rev/min", "rpm"},   {"°C", "degC"},       {"°F", "degF"},
+    {"N.m", "Nm"},        {"N·m", "Nm"},        {"N⋅m", "Nm"},        {"N*m", "Nm"},
+    {"N m", "Nm"},        {"N-m", "Nm"},        {"mN.m", "mNm"},      {"mN·m", "mNm"},
+    {"mN⋅m", "mNm"},      {"mN*m", "mNm"},      {"mN m", "mNm"},      {"kN.m", "kNm"},
+    {"kN·m", "kNm"},      {"kN*m", "kNm"},      {"N.cm", "Ncm"},      {"N·cm", "Ncm"},
+    {"N.mm", "Nmm"},      {"N·mm", "Nmm"},      {"in-lb", "lbf in"},  {"in lb", "lbf in"},
+    {"in-lbf", "lbf in"}, {"in lbf", "lbf in"}, {"lb-in", "lbf in"},  {"lb in", "lbf in"},
+    {"lbf-in", "lbf in"}, {"lbf·in", "lbf in"}, {"ft-lb", "lbf ft"},  {"ft lb", "lbf ft"},
+    {"ft-lbf", "lbf ft"}, {"lb-ft", "lbf ft"},  {"lbf-ft", "lbf ft"}, {"lbf·ft", "lbf ft"},
+};
+
 }  // namespace
 
 std::span<const Unit> units() { return kUnits; }
 
 std::optional<Unit> find_unit(std::string_view symbol) {
-  const auto found = std::ranges::find(kUnits, symbol, &Unit::symbol);
+  using Spelling = std::pair<std::string_view, std::string_view>;
+  const auto* spelling = std::ranges::find(kOtherSpellings, symbol, &Spelling::first);
+  if (spelling != std::end(kOtherSpellings)) symbol = spelling->second;
+  const auto* found = std::ranges::find(kUnits, symbol, &Unit::symbol);
   if (found == std::end(kUnits)) return std::nullopt;
   return *found;
 }

@@ -12,6 +12,8 @@
 namespace flexspline {
 namespace {
 
+constexpr off_t kLargestFile = off_t{1} << 30U;
+
 std::string reason(int code) { return std::generic_category().message(code); }
 
 /// Closes what open gave.
@@ -92,10 +94,18 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view cont
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without waiting for somebody to write into a pipe.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) return not_read(path, reason(errno));
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) return not_read(path, reason(errno));
+  if (!S_ISREG(status.st_mode)) {
+    return not_read(path, S_ISDIR(status.st_mode) ? "it is a folder" : "it is no regular file");
+  }
+  if (status.st_size > kLargestFile) {
+    return not_read(path, "it has " + std::to_string(status.st_size) + " bytes, where " +
+                              std::to_string(kLargestFile) + " are the most");
+  }
   // One byte more than the size, so that the end of an ordinary file is seen in one pass.
   std::string content(static_cast<std::size_t>(status.st_size) + 1, '\0');
   std::size_t filled = 0;

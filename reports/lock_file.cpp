@@ -4,6 +4,8 @@
 
 #include <toml++/toml.h>
 
+#include "flexspline/core/nesting.hpp"
+
 namespace flexspline::reports {
 namespace {
 
@@ -23,6 +25,7 @@ std::vector<std::string> ids_in(const toml::table& table, std::string_view path)
 
 LockFile parse_lock(const std::string& lock) {
   LockFile parsed;
+  if (!check_nesting(lock)) return parsed;
   try {
     const toml::table table = toml::parse(lock);
     for (const char* path : {"study.name", "study.title", "title"}) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checksum.hpp"
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/text_place.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "json_fields.hpp"
@@ -32,6 +33,7 @@ using nlohmann::json;
 Result<json> read_checked(const std::filesystem::path& path, std::string_view schema) {
   const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
+  if (const auto flat = check_nesting(*text); !flat) return tl::unexpected(flat.error());
   try {
     json artefact = json::parse(*text);
     const std::string found = text_in(artefact, "schema");

@@ -34,7 +34,9 @@ Signals splines_over(const TorsionRecord& record, Segment segment) {
     return whole.subspan(segment.first, length);
   };
   const std::span<const double> signals[] = {part(record.motion), part(record.effort)};
-  return smooth_by_splines(part(record.time), signals);
+  auto smooth = smooth_by_splines(part(record.time), signals);
+  expects(smooth.has_value(), "reconstruct has checked the samples");
+  return *std::move(smooth);
 }
 
 // A motion is differentiated and has few harmonics; an effort has kinks, which must not be rounded.
@@ -146,10 +148,9 @@ Reconstruction reconstruct_moving(const TorsionRecord& record) {
 }  // namespace
 
 Result<Reconstruction> reconstruct(const TorsionRecord& record) {
-  if (record.time.size() < 16) {
-    return failure(ErrorCode::numerics,
-                   fmt::format("recording {} has {} samples", record.id, record.time.size()),
-                   "16 or more are needed to tell signal from noise");
+  const std::span<const double> signals[] = {record.motion, record.effort};
+  if (auto sound = check_samples(record.time, signals); !sound) {
+    return tl::unexpected(in_context(sound.error(), "recording " + record.id));
   }
   const auto [low, high] = std::ranges::minmax(record.motion);
   if (!(high > low)) {

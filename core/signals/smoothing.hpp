@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "flexspline/core/error.hpp"
+
 namespace flexspline {
 
 /// A smooth signal and its first two derivatives at the instants of its samples.
@@ -15,13 +17,19 @@ struct SmoothSignal {
   std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
 };
 
+/// Whether signals can be smoothed: 16 samples or more over a time that increases, and squares that
+/// neither are nor sum to infinity. Errors: numerics.
+Result<void> check_samples(std::span<const double> time,
+                           std::span<const std::span<const double>> signals);
+
 /// Penalised cubic spline (Eilers and Marx 1996, third differences), the penalty by generalised
-/// cross-validation with a stochastic trace. 16 samples or more.
-SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples);
+/// cross-validation with a stochastic trace. Errors: those of check_samples.
+Result<SmoothSignal> smooth_by_spline(std::span<const double> time,
+                                      std::span<const double> samples);
 
 /// The same of several signals sampled at the same instants, whose equations are shared.
-std::vector<SmoothSignal> smooth_by_splines(std::span<const double> time,
-                                            std::span<const std::span<const double>> signals);
+Result<std::vector<SmoothSignal>> smooth_by_splines(
+    std::span<const double> time, std::span<const std::span<const double>> signals);
 
 /// Which harmonics a smooth signal keeps.
 enum class Harmonics {
@@ -36,7 +44,8 @@ struct Sampled {
   Harmonics kept;
 };
 
-/// Fourier series of the period given, of signals sampled at the same instants.
+/// Fourier series of the period given, of signals sampled at the same instants that check_samples
+/// takes.
 std::vector<SmoothSignal> smooth_by_harmonics(std::span<const double> time,
                                               std::span<const Sampled> signals, double period);
 

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+
+#include <fmt/format.h>
 
 #include <Eigen/Sparse>
 
@@ -15,6 +18,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 // saves.
 using BandedSolver = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
+constexpr std::size_t kFewestSamples = 16;
 constexpr std::size_t kSamplesPerInterval = 3;
 constexpr std::size_t kMostIntervals = 3000;
 constexpr int kProbes = 6;
@@ -128,10 +132,36 @@ SmoothSignal signal_of(const Penalised& fit, const CubicBasis& basis, std::span<
   return signal;
 }
 
+bool has_finite_squares(std::span<const double> samples) {
+  double sum = 0.0;
+  for (const double x : samples) sum += x * x;
+  return std::isfinite(sum);
+}
+
 }  // namespace
 
-std::vector<SmoothSignal> smooth_by_splines(std::span<const double> time,
-                                            std::span<const std::span<const double>> signals) {
+Result<void> check_samples(std::span<const double> time,
+                           std::span<const std::span<const double>> signals) {
+  if (time.size() < kFewestSamples) {
+    return failure(ErrorCode::numerics, fmt::format("{} samples", time.size()),
+                   fmt::format("{} or more are needed to tell signal from noise", kFewestSamples));
+  }
+  const bool increases = std::ranges::adjacent_find(time, std::not_fn(std::less<>())) == time.end();
+  if (!increases || !std::isfinite(time.front()) || !std::isfinite(time.back())) {
+    return failure(ErrorCode::numerics, "time does not increase from sample to sample",
+                   "sort the samples, and drop those that repeat a time");
+  }
+  for (const auto& samples : signals) {
+    if (samples.size() == time.size() && has_finite_squares(samples)) continue;
+    return failure(ErrorCode::numerics, "samples are missing, not finite or overflow when squared",
+                   "check the values and the unit of the channel");
+  }
+  return {};
+}
+
+Result<std::vector<SmoothSignal>> smooth_by_splines(
+    std::span<const double> time, std::span<const std::span<const double>> signals) {
+  if (auto sound = check_samples(time, signals); !sound) return tl::unexpected(sound.error());
   const std::size_t intervals =
       std::clamp<std::size_t>(time.size() / kSamplesPerInterval, 4, kMostIntervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
@@ -142,13 +172,20 @@ std::vector<SmoothSignal> smooth_by_splines(std::span<const double> time,
   }
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < signals.size(); ++s) {
+    if (best[s].coefficients.size() == 0) {
+      return failure(ErrorCode::numerics, "no smooth curve through the samples can be computed",
+                     "check the values and the unit of the channel");
+    }
     smooth.push_back(signal_of(best[s], basis, time, signals[s]));
   }
   return smooth;
 }
 
-SmoothSignal smooth_by_spline(std::span<const double> time, std::span<const double> samples) {
-  return std::move(smooth_by_splines(time, std::span(&samples, 1)).front());
+Result<SmoothSignal> smooth_by_spline(std::span<const double> time,
+                                      std::span<const double> samples) {
+  auto smooth = smooth_by_splines(time, std::span(&samples, 1));
+  if (!smooth) return tl::unexpected(smooth.error());
+  return std::move(smooth->front());
 }
 
 }  // namespace flexspline

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/text_place.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/checksum.hpp"
@@ -51,6 +52,9 @@ bool is_as_written(std::string_view text) {
 }  // namespace
 
 Result<Json> parse_json(std::string_view text, const std::filesystem::path& path) {
+  if (const auto flat = check_nesting(text); !flat) {
+    return refused(path.string(), flat.error().problem);
+  }
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

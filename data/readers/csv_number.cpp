@@ -1,6 +1,7 @@
 #include "readers/csv_number.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -16,16 +17,22 @@ CsvNumber out_of_range(std::string_view cell) {
   return {value, {}};
 }
 
+bool is_word_for_nothing(std::string_view cell) {
+  static constexpr std::array<std::string_view, 5> words = {"NA", "N/A", "#N/A", "null", "NULL"};
+  return std::ranges::find(words, cell) != words.end();
+}
+
 CsvNumber parse_with_point(std::string_view cell) {
   std::string_view digits = cell;
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  if (digits.empty()) return {kNoNumber, "is empty"};
+  if (digits.empty()) return {kNoNumber, "is empty", true};
+  if (is_word_for_nothing(digits)) return {kNoNumber, "is not a number", true};
   double value = kNoNumber;
   const char* end = digits.data() + digits.size();
   const auto [stop, code] = std::from_chars(digits.data(), end, value);
   if (code == std::errc::invalid_argument || stop != end) return {kNoNumber, "is not a number"};
   if (code == std::errc::result_out_of_range) return out_of_range(digits);
-  if (!std::isfinite(value)) return {kNoNumber, "is not finite"};
+  if (!std::isfinite(value)) return {kNoNumber, "is not finite", true};
   return {value, {}};
 }
 

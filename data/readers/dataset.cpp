@@ -23,11 +23,13 @@ void read_tables(Description& description, DatasetReading& reading) {
   std::vector<DatasetReading> found(entries.size());
   description.set.recordings.resize(entries.size());
   in_parallel(entries.size(), 0, [&](std::size_t i) {
-    description.set.recordings[i] = read_table(entries[i], description.channels, found[i]);
+    description.set.recordings[i] =
+        read_table(entries[i], description.set.rig, description.channels, found[i]);
   });
   for (DatasetReading& one : found) {
     std::ranges::move(one.errors, std::back_inserter(reading.errors));
     std::ranges::move(one.notes, std::back_inserter(reading.notes));
+    std::ranges::move(one.decisions, std::back_inserter(description.set.notes));
   }
 }
 
@@ -53,12 +55,13 @@ DatasetReading read_dataset(const std::filesystem::path& folder) {
   Description description = parse_description(*text, folder, reading);
   if (description.readable) read_tables(description, reading);
   if (!reading.errors.empty()) return reading;
+  reading.decisions = description.set.notes;
   description.set.sha256 = content_hash(description.set);
   reading.set = std::move(description.set);
   return reading;
 }
 
-Result<RecordingSet> load_dataset(const std::filesystem::path& folder) {
+Result<RecordingSet> load_dataset(const std::filesystem::path& folder, std::size_t most_rows) {
   std::error_code error;
   if (!std::filesystem::exists(description_of(folder), error)) {
     return failure(ErrorCode::input_missing,
@@ -66,7 +69,10 @@ Result<RecordingSet> load_dataset(const std::filesystem::path& folder) {
                    "name a folder that holds one");
   }
   DatasetReading reading = read_dataset(folder);
-  if (reading.set) return *std::move(reading.set);
+  if (reading.set) {
+    thin_recordings(*reading.set, most_rows);
+    return *std::move(reading.set);
+  }
   std::string findings;
   for (const Finding& finding : reading.errors) findings += "\n  " + finding.message();
   return failure(ErrorCode::bad_data,

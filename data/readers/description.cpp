@@ -16,9 +16,22 @@ namespace {
 constexpr std::string_view kSchema = "flexspline-dataset/1";
 constexpr std::array<std::string_view, 9> kKeys = {
     "schema", "name", "rig", "license", "source", "note", "constants", "channels", "recording"};
-constexpr std::array<std::string_view, 6> kConstants = {"gear_ratio",        "motor_inertia_kgm2",
-                                                        "load_inertia_kgm2", "load_mass_kg",
-                                                        "arm_length_m",      "nominal_supply_V"};
+/// A constant that has a meaning, and what it may be: positive, and no more than this.
+struct KnownConstant {
+  std::string_view name;
+  double most;
+  std::string_view says;
+};
+
+constexpr std::array<KnownConstant, 6> kConstants = {{
+    {"gear_ratio", 1e6,
+     "give motor turns per output turn; direction belongs into the channels' signs"},
+    {"motor_inertia_kgm2", 1e6, "give kg m2 at the motor's shaft, or leave it out"},
+    {"load_inertia_kgm2", 1e9, "give kg m2 at the output, or leave it out"},
+    {"load_mass_kg", 1e7, "give kg, or leave it out"},
+    {"arm_length_m", 1e4, "give m, or leave it out"},
+    {"nominal_supply_V", 1e6, "give V, or leave it out"},
+}};
 
 /// False when the file is of another format, of which nothing more can be said.
 bool check_schema(TomlReader& reader, const toml::table& root) {
@@ -42,14 +55,29 @@ std::optional<Rig> parse_rig(TomlReader& reader, const toml::table& root) {
   return rig;
 }
 
+void check_constant(TomlReader& reader, const toml::node& node, const KnownConstant& known,
+                    double value) {
+  if (value > 0.0 && value <= known.most) return;
+  reader.refuse(node.source(),
+                fmt::format("{} is {}, which is {}", known.name, value,
+                            value > 0.0 ? fmt::format("implausible (at most {:g})", known.most)
+                                        : "not positive"),
+                std::string(known.says));
+}
+
 std::map<std::string, double> parse_constants(TomlReader& reader, const toml::table& constants,
                                               std::vector<Finding>& notes) {
+  std::vector<std::string_view> names;
+  for (const KnownConstant& known : kConstants) names.push_back(known.name);
   std::map<std::string, double> values;
   for (const auto& [key, node] : constants) {
     const std::string name(key.str());
-    if (const auto value = reader.finite(node, name)) values[name] = *value;
-    if (std::ranges::find(kConstants, name) != kConstants.end()) continue;
-    if (const auto nearest = nearest_name(name, kConstants)) {
+    const auto value = reader.finite(node, name);
+    if (value) values[name] = *value;
+    const auto* known = std::ranges::find(kConstants, name, &KnownConstant::name);
+    if (known != kConstants.end()) {
+      if (value) check_constant(reader, node, *known, *value);
+    } else if (const auto nearest = nearest_name(name, names)) {
       notes.push_back(reader.at(key.source(),
                                 fmt::format("constant '{}' has no meaning here", name),
                                 fmt::format("did you mean '{}'?", *nearest)));
@@ -59,26 +87,18 @@ std::map<std::string, double> parse_constants(TomlReader& reader, const toml::ta
 }
 
 /// What is written but refused is not missing as well.
-void check_gear_ratio(TomlReader& reader, const toml::table& root, Rig rig,
-                      const std::map<std::string, double>& constants) {
+void check_gear_ratio(TomlReader& reader, const toml::table& root, Rig rig) {
   const toml::node* table = root.get("constants");
   const toml::node* written = root["constants"]["gear_ratio"].node();
-  const auto ratio = constants.find("gear_ratio");
-  if (ratio != constants.end() && ratio->second <= 0.0) {
-    reader.refuse(written->source(),
-                  fmt::format("gear_ratio is {}, which is not positive", ratio->second),
-                  "give motor turns per output turn; direction belongs into the channels' signs");
-  }
-  if (written == nullptr && (rig == Rig::locked || rig == Rig::free)) {
-    reader.refuse((table == nullptr ? root : *table).source(),
-                  fmt::format("no gear_ratio, which rig '{}' needs", name_of(rig)),
-                  "add gear_ratio = … below [constants]");
-  }
+  if (written != nullptr || (rig != Rig::locked && rig != Rig::free)) return;
+  reader.refuse((table == nullptr ? root : *table).source(),
+                fmt::format("no gear_ratio, which rig '{}' needs", name_of(rig)),
+                "add gear_ratio = … below [constants]");
 }
 
 void check_rig(TomlReader& reader, const toml::table& root, Rig rig, Description& description,
                bool all_channels) {
-  check_gear_ratio(reader, root, rig, description.set.constants);
+  check_gear_ratio(reader, root, rig);
   description.set.display = display_units(rig, description.channels);
   // A channel that was refused is not missing as well.
   const toml::node* channels = root.get("channels");
@@ -106,16 +126,12 @@ std::string parse_license(TomlReader& reader, const toml::table& root,
 }
 
 void read_recordings(TomlReader& reader, const toml::table& root,
-                     const std::filesystem::path& folder, Description& description,
-                     std::vector<Finding>& notes) {
+                     const std::filesystem::path& folder, Description& description) {
   const bool linear = std::ranges::find(description.channels, Quantity::displacement,
                                         &Channel::quantity) != description.channels.end();
   const toml::array* list = reader.list(root, "recording");
   if (list != nullptr) {
-    ParsedRecordings parsed = parse_recordings(reader, *list, folder, linear);
-    description.recordings = std::move(parsed.entries);
-    description.set.notes = std::move(parsed.decisions);
-    std::ranges::move(parsed.notes, std::back_inserter(notes));
+    description.recordings = parse_recordings(reader, *list, folder, linear);
   }
   if (root.contains("recording") && (list == nullptr || !list->empty())) return;
   reader.refuse(root.source(), "no recording", "add [[recording]] with id and file");
@@ -149,7 +165,7 @@ Description parse_description(std::string_view text, const std::filesystem::path
     set.rig = *rig;
     check_rig(reader, *root, *rig, description, description.readable);
   }
-  read_recordings(reader, *root, folder, description, reading.notes);
+  read_recordings(reader, *root, folder, description);
   return description;
 }
 

@@ -10,7 +10,11 @@
 
 namespace flexspline::data {
 
-/// One entry of [channels]: a column of every table, what it is, and its unit.
+/// The unit of an encoder's counts, which needs counts_per_rev.
+inline constexpr std::string_view kCounts = "counts";
+
+/// One entry of [channels]: a column of every table, what it is, and its unit with sign, scale and
+/// offset in its factor and offset: value_si = scale (sign to_si(x)) + to_si of the offset alone.
 struct Channel {
   std::string column;
   Quantity quantity = Quantity::time;

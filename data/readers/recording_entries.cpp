@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 
 #include "flexspline/core/nearest_name.hpp"
 #include "readers/description_parts.hpp"
+#include "readers/plausible.hpp"
 #include "readers/table_path.hpp"
 
 namespace flexspline::data {
@@ -50,16 +53,30 @@ std::optional<double> amplitude(TomlReader& reader, const toml::table& entry, bo
       continue;
     }
     if (const auto value = reader.finite(node, key.str())) result = to_si(*unit, *value);
+    if (result && !(*result >= 0.0 && *result <= plausible_range(wanted).high)) {
+      reader.refuse(node.source(), fmt::format("{} is {:.6g} in SI", key.str(), *result),
+                    "give the half range of the motion, positive; " + plausible_words(wanted));
+    }
   }
   return result;
 }
 
 std::optional<double> frequency(TomlReader& reader, const toml::table& entry) {
   const auto value = reader.number(entry, "frequency_hz");
-  if (value && *value <= 0.0) {
+  if (value && !(*value > 0.0 && *value <= plausible_range(Dimension::frequency).high)) {
     reader.refuse(entry.get("frequency_hz")->source(),
-                  fmt::format("frequency_hz is {}, which is not positive", *value),
+                  fmt::format("frequency_hz is {}, which is {}", *value,
+                              *value > 0.0 ? "implausible" : "not positive"),
                   "leave the key out where there is no frequency");
+  }
+  return value;
+}
+
+double start(TomlReader& reader, const toml::table& entry) {
+  const double value = reader.number(entry, "start_s").value_or(0.0);
+  if (std::abs(value) > plausible_range(Dimension::time).high) {
+    reader.refuse(entry.get("start_s")->source(), fmt::format("start_s is {}", value),
+                  plausible_words(Dimension::time));
   }
   return value;
 }
@@ -95,7 +112,7 @@ std::optional<RecordingEntry> parse_recording(TomlReader& reader, const toml::ta
   }
   recording.id = id.value_or("");
   recording.excitation = reader.text(entry, "excitation").value_or("");
-  recording.start_s = reader.number(entry, "start_s").value_or(0.0);
+  recording.start_s = start(reader, entry);
   recording.amplitude = amplitude(reader, entry, linear);
   recording.frequency_hz = frequency(reader, entry);
   recording.split = split(reader, entry);
@@ -106,98 +123,53 @@ std::optional<RecordingEntry> parse_recording(TomlReader& reader, const toml::ta
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-std::string text_of(const toml::table& entry, std::string_view key) {
-  return entry[key].value<std::string>().value_or("");
-}
-
-double start_of(const toml::table& entry) { return entry["start_s"].value_or(0.0); }
-
-/// One table listed for two passes over the same excitation: all is said twice, but for start_s.
-bool is_other_pass(const toml::table& one, const toml::table& other) {
-  toml::table left = one;
-  toml::table right = other;
-  left.erase("start_s");
-  right.erase("start_s");
-  return left == right && start_of(one) != start_of(other);
-}
-
 /// The [[recording]]s of a file one after the other, and what each repeats of those before it.
 class RecordingList {
  public:
-  RecordingList(TomlReader& reader, const std::filesystem::path& folder, bool linear,
-                ParsedRecordings& parsed)
-      : reader_(reader), folder_(folder), linear_(linear), parsed_(parsed) {}
+  RecordingList(TomlReader& reader, const std::filesystem::path& folder, bool linear)
+      : reader_(reader), folder_(folder), linear_(linear) {}
 
   void add(const toml::table& entry) {
-    const toml::table* before = first_with("id", entry);
-    if (before != nullptr && is_other_pass(*before, entry)) {
-      merge(*before, entry);
-      return;
-    }
-    if (before != nullptr) refuse_id(*before, entry);
-    if (const toml::table* same = first_with("file", entry)) note_file(*same, entry);
-    seen_.push_back(&entry);
+    refuse_repeated(entry, "id", entry["id"].value<std::string>().value_or(""), ids_);
     auto recording = parse_recording(reader_, entry, folder_, linear_);
-    if (recording) parsed_.entries.push_back(*std::move(recording));
+    if (!recording) return;
+    std::error_code ignored;
+    const std::filesystem::path table = std::filesystem::canonical(recording->table, ignored);
+    refuse_repeated(entry, "file", table.string(), tables_);
+    entries_.push_back(*std::move(recording));
   }
+
+  std::vector<RecordingEntry> entries() && { return std::move(entries_); }
 
  private:
-  const toml::table* first_with(std::string_view key, const toml::table& entry) const {
-    const std::string value = text_of(entry, key);
-    const auto found = std::ranges::find_if(
-        seen_, [&](const toml::table* other) { return text_of(*other, key) == value; });
-    return value.empty() || found == seen_.end() ? nullptr : *found;
-  }
+  using Lines = std::map<std::string, int>;
 
-  /// Both passes went into the one table, where the later has overwritten the earlier.
-  void merge(const toml::table& before, const toml::table& entry) {
-    const std::string id = text_of(entry, "id");
-    const auto found = std::ranges::find(
-        parsed_.entries, id, [](const RecordingEntry& parsed) { return parsed.recording.id; });
-    if (found == parsed_.entries.end()) return;  // refused already
-    double& start = found->recording.start_s;
-    const double listed = reader_.number(entry, "start_s").value_or(0.0);
-    const std::string says = fmt::format(
-        "recording '{}' is listed for passes at {} s and {} s with one file: it is read once, as "
-        "of the later",
-        id, start, listed);
-    start = std::max(start, listed);
-    parsed_.decisions.push_back(says);
-    parsed_.notes.push_back(reader_.at(
-        entry.get("id")->source(), fmt::format("{} (the other on line {})", says, line_of(before)),
-        "give each pass an id and a file of its own"));
-  }
-
-  void refuse_id(const toml::table& before, const toml::table& entry) {
-    const toml::node& id = *entry.get("id");
-    reader_.refuse(id.source(),
-                   fmt::format("two recordings have the id '{}', the other on line {}",
-                               text_of(entry, "id"), line_of(*before.get("id"))),
-                   "give each recording an id of its own");
-  }
-
-  void note_file(const toml::table& before, const toml::table& entry) {
-    const toml::node& file = *entry.get("file");
-    parsed_.notes.push_back(
-        reader_.at(file.source(),
-                   fmt::format("file '{}' is the table of line {} too", text_of(entry, "file"),
-                               line_of(*before.get("file"))),
-                   "the same samples count twice, and may be fitted and held out at once"));
+  void refuse_repeated(const toml::table& entry, std::string_view key, const std::string& value,
+                       Lines& before) {
+    if (value.empty()) return;
+    const toml::node& written = *entry.get(key);
+    const auto [found, is_new] = before.try_emplace(value, line_of(written));
+    if (is_new) return;
+    reader_.refuse(
+        written.source(),
+        fmt::format("two recordings have the {} '{}', the other on line {}", key,
+                    written.value<std::string>().value_or(""), found->second),
+        fmt::format("give each recording {} of its own", key == "id" ? "an id" : "a file"));
   }
 
   TomlReader& reader_;
   const std::filesystem::path& folder_;
   bool linear_;
-  ParsedRecordings& parsed_;
-  std::vector<const toml::table*> seen_;
+  std::vector<RecordingEntry> entries_;
+  Lines ids_;
+  Lines tables_;
 };
 
 }  // namespace
 
-ParsedRecordings parse_recordings(TomlReader& reader, const toml::array& list,
-                                  const std::filesystem::path& folder, bool linear) {
-  ParsedRecordings parsed;
-  RecordingList recordings(reader, folder, linear, parsed);
+std::vector<RecordingEntry> parse_recordings(TomlReader& reader, const toml::array& list,
+                                             const std::filesystem::path& folder, bool linear) {
+  RecordingList recordings(reader, folder, linear);
   for (const toml::node& node : list) {
     if (const toml::table* entry = node.as_table()) {
       recordings.add(*entry);
@@ -205,7 +177,7 @@ ParsedRecordings parse_recordings(TomlReader& reader, const toml::array& list,
       reader.refuse(node.source(), "a recording is not a table", "write [[recording]] above it");
     }
   }
-  return parsed;
+  return std::move(recordings).entries();
 }
 
 }  // namespace flexspline::data

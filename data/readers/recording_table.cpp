@@ -4,43 +4,54 @@
 
 #include <algorithm>
 
-#include "flexspline/core/nearest_name.hpp"
-#include "flexspline/core/write_file.hpp"
+#include "readers/cell_text.hpp"
 #include "readers/csv_table.hpp"
+#include "readers/plausible.hpp"
+#include "readers/recording_checks.hpp"
 
 namespace flexspline::data {
 namespace {
 
-constexpr std::size_t kFewestSamples = 16;
-
-void refuse_missing(const CsvTable& table, const Channel& channel, const std::string& file,
-                    std::vector<Finding>& errors) {
-  const std::vector<std::string_view> header(table.header.begin(), table.header.end());
-  errors.push_back({file, 1, 1,
-                    fmt::format("no column '{}', which line {} of dataset.toml names as the {}",
-                                channel.column, channel.line, name_of(channel.quantity)),
-                    suggestion(channel.column, header)});
-}
+constexpr std::size_t kMostNamed = 8;
 
 void note_ignored(const CsvTable& table, const std::vector<Channel>& channels,
                   const std::string& file, std::vector<Finding>& notes) {
   std::string names;
+  std::size_t ignored = 0;
   for (const std::string& column : table.header) {
     if (std::ranges::find(channels, column, &Channel::column) != channels.end()) continue;
-    names += (names.empty() ? "'" : ", '") + column + "'";
+    if (++ignored <= kMostNamed) names += (names.empty() ? "'" : ", '") + shown(column) + "'";
   }
-  if (names.empty()) return;
+  if (ignored == 0) return;
+  if (ignored > kMostNamed) names += fmt::format(" and {} more", ignored - kMostNamed);
   notes.push_back({file, 1, 1, fmt::format("ignored: column {}", names),
                    "name it in [channels] to have it read"});
 }
 
-CsvColumns wanted_columns(const std::vector<Channel>& channels) {
-  CsvColumns wanted;
-  for (const Channel& channel : channels) {
-    wanted.names.push_back(channel.column);
-    if (channel.quantity == Quantity::time) wanted.increasing = channel.column;
+CsvRole role_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::time:
+      return CsvRole::increasing;
+    case Quantity::valid:
+      return CsvRole::valid;
+    case Quantity::drive_enabled:
+      return CsvRole::flag;
+    default:
+      return CsvRole::value;
   }
-  return wanted;
+}
+
+CsvColumn column_of(const Channel& channel) {
+  const PlausibleRange range = plausible_range(channel.unit.dimension);
+  const auto [low, high] =
+      std::minmax({from_si(channel.unit, range.low), from_si(channel.unit, range.high)});
+  return {channel.column,
+          role_of(channel.quantity),
+          low,
+          high,
+          plausible_words(channel.unit.dimension),
+          fmt::format("which line {} of dataset.toml names as the {}", channel.line,
+                      name_of(channel.quantity))};
 }
 
 void add_channel(Recording& recording, const Channel& channel, std::vector<double> values) {
@@ -54,33 +65,20 @@ void add_channel(Recording& recording, const Channel& channel, std::vector<doubl
 
 }  // namespace
 
-Recording read_table(const RecordingEntry& entry, const std::vector<Channel>& channels,
+Recording read_table(const RecordingEntry& entry, Rig rig, const std::vector<Channel>& channels,
                      DatasetReading& reading) {
   Recording recording = entry.recording;
   const std::string file = entry.table.string();
-  const Result<std::string> text = read_file(entry.table);
-  if (!text) {
-    reading.errors.push_back({file, 0, 0, text.error().problem, text.error().remedy});
-    return recording;
-  }
-  CsvTable table = parse_csv(*text, wanted_columns(channels), file, reading);
+  std::vector<CsvColumn> wanted;
+  std::ranges::transform(channels, std::back_inserter(wanted), column_of);
+  CsvTable table = read_csv(entry.table, wanted, reading);
   if (table.header.empty()) return recording;
   note_ignored(table, channels, file, reading.notes);
-  for (const Channel& channel : channels) {
-    const auto found = std::ranges::find(table.header, channel.column);
-    if (found == table.header.end()) {
-      refuse_missing(table, channel, file, reading.errors);
-      continue;
-    }
-    const auto index = static_cast<std::size_t>(found - table.header.begin());
-    add_channel(recording, channel, std::move(table.columns[index]));
+  if (!reading.errors.empty()) return recording;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    add_channel(recording, channels[i], std::move(table.columns[i]));
   }
-  if (table.rows < kFewestSamples) {
-    reading.errors.push_back(
-        {file, static_cast<int>(table.rows) + 1, 1,
-         fmt::format("{} samples, where {} are the fewest", table.rows, kFewestSamples),
-         "record for longer"});
-  }
+  check_recording(recording, rig, channels, file, reading);
   return recording;
 }
 

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
+
+#include "flexspline/core/error.hpp"
+#include "flexspline/data/rig_channels.hpp"
 
 namespace flexspline::data {
 namespace {
 
 using Channels = std::vector<Channel>;
-using Quantities = std::initializer_list<Quantity>;
 
 const Channel* find(const Channels& channels, Quantity quantity) {
   const auto found = std::ranges::find(channels, quantity, &Channel::quantity);
@@ -20,75 +21,87 @@ bool has(const Channels& channels, Quantity quantity) {
   return find(channels, quantity) != nullptr;
 }
 
-std::string joined(Quantities quantities) {
-  std::string names;
-  for (const Quantity quantity : quantities) {
-    if (!names.empty()) names += ", ";
-    names += name_of(quantity);
+bool has_all(const Channels& channels, const std::vector<Quantity>& wanted) {
+  return std::ranges::all_of(wanted, [&](Quantity one) { return has(channels, one); });
+}
+
+std::string words_of(const ChannelChoice& choice) {
+  std::string words;
+  for (const auto& together : choice.alternatives) {
+    words += words.empty() ? "" : choice.exactly_one ? ", " : ", or ";
+    for (std::size_t i = 0; i < together.size(); ++i) {
+      words += fmt::format("{}{}", i > 0 ? " with " : "", name_of(together[i]));
+    }
   }
-  return names;
+  return words;
 }
 
-void require(Rig rig, const Channels& channels, Quantities wanted,
-             std::vector<std::string>& complaints) {
-  for (const Quantity quantity : wanted) {
-    if (has(channels, quantity)) continue;
-    complaints.push_back(
-        fmt::format("no channel is the {}, which rig '{}' needs", name_of(quantity), name_of(rig)));
+std::optional<std::string> complaint(Rig rig, const ChannelChoice& choice,
+                                     const Channels& channels) {
+  const auto count = std::ranges::count_if(
+      choice.alternatives, [&](const auto& together) { return has_all(channels, together); });
+  if (count == 1 || (count > 1 && !choice.exactly_one)) return std::nullopt;
+  if (choice.alternatives.size() == 1) {
+    return fmt::format("no channel is the {}, which rig '{}' needs", words_of(choice),
+                       name_of(rig));
   }
+  if (choice.exactly_one) {
+    return fmt::format("rig '{}' needs exactly one channel out of {}; there are {}", name_of(rig),
+                       words_of(choice), count);
+  }
+  return fmt::format("rig '{}' needs what drives it: {}", name_of(rig), words_of(choice));
 }
 
-void require_one(Rig rig, const Channels& channels, Quantities wanted,
-                 std::vector<std::string>& complaints) {
-  const auto count =
-      std::ranges::count_if(wanted, [&](Quantity quantity) { return has(channels, quantity); });
-  if (count == 1) return;
-  complaints.push_back(fmt::format("rig '{}' needs exactly one channel out of {}; there are {}",
-                                   name_of(rig), joined(wanted), count));
-}
-
-void complain_of_specimen(const Channels& channels, std::vector<std::string>& complaints) {
-  using enum Quantity;
-  require_one(Rig::specimen, channels, {torsion, angle, displacement}, complaints);
-  require_one(Rig::specimen, channels, {transmitted_torque, torque, force}, complaints);
-  const Channel* rate = find(channels, velocity);
-  if (rate == nullptr) return;
-  const bool linear = has(channels, displacement);
-  if ((rate->unit.dimension == Dimension::velocity) == linear) return;
-  complaints.push_back(fmt::format("column '{}' is a velocity in {}, but the motion is {}",
-                                   rate->column, rate->unit.symbol, linear ? "linear" : "angular"));
-}
-
-void complain_of_servo(const Channels& channels, std::vector<std::string>& complaints) {
-  using enum Quantity;
-  require(Rig::servo, channels, {load_angle}, complaints);
-  const bool voltage = has(channels, duty_cycle) && has(channels, supply_voltage);
-  if (has(channels, motor_torque) || has(channels, current) || voltage) return;
-  complaints.emplace_back(
-      "rig 'servo' needs what drives it: motor_torque, or current, or duty_cycle with "
-      "supply_voltage");
+std::optional<std::string> velocity_complaint(const Channels& channels) {
+  const Channel* rate = find(channels, Quantity::velocity);
+  if (rate == nullptr) return std::nullopt;
+  const bool linear = has(channels, Quantity::displacement);
+  if ((rate->unit.dimension == Dimension::velocity) == linear) return std::nullopt;
+  return fmt::format("column '{}' is a velocity in {}, but the motion is {}", rate->column,
+                     rate->unit.symbol, linear ? "linear" : "angular");
 }
 
 }  // namespace
 
-std::vector<std::string> rig_complaints(Rig rig, const Channels& channels) {
+std::span<const RigChannels> rig_channels() {
   using enum Quantity;
+  static const std::vector<RigChannels> rows = {
+      {Rig::locked,
+       {{{{motor_angle}}}, {{{transmitted_torque}}}},
+       {motor_torque, load_angle, velocity, commanded_angle, current, temperature, valid},
+       {motor_angle, transmitted_torque}},
+      {Rig::free,
+       {{{{motor_angle}}}, {{{load_angle}}}, {{{motor_torque}}}},
+       {transmitted_torque, velocity, commanded_angle, current, temperature, valid},
+       {motor_angle, load_angle, transmitted_torque}},
+      {Rig::specimen,
+       {{{{torsion}, {angle}, {displacement}}, true},
+        {{{transmitted_torque}, {torque}, {force}}, true}},
+       {velocity, commanded_torque, temperature, valid},
+       {torsion, angle, displacement, transmitted_torque, torque, force}},
+      {Rig::servo,
+       {{{{load_angle}}}, {{{motor_torque}, {current}, {duty_cycle, supply_voltage}}}},
+       {drive_enabled, commanded_angle, velocity, temperature, valid},
+       {load_angle}},
+  };
+  return rows;
+}
+
+const RigChannels& rig_channels(Rig rig) {
+  const auto found = std::ranges::find(rig_channels(), rig, &RigChannels::rig);
+  expects(found != rig_channels().end(), "every rig has a row of channels");
+  return *found;
+}
+
+std::vector<std::string> rig_complaints(Rig rig, const Channels& channels) {
   std::vector<std::string> complaints;
-  require(rig, channels, {Quantity::time}, complaints);
-  switch (rig) {
-    case Rig::locked:
-      require(rig, channels, {motor_angle, transmitted_torque}, complaints);
-      break;
-    case Rig::free:
-      require(rig, channels, {motor_angle, load_angle, motor_torque}, complaints);
-      break;
-    case Rig::specimen:
-      complain_of_specimen(channels, complaints);
-      break;
-    case Rig::servo:
-      complain_of_servo(channels, complaints);
-      break;
+  std::vector<ChannelChoice> needs = {{{{Quantity::time}}}};
+  std::ranges::copy(rig_channels(rig).needs, std::back_inserter(needs));
+  for (const ChannelChoice& choice : needs) {
+    if (auto one = complaint(rig, choice, channels)) complaints.push_back(*std::move(one));
   }
+  if (rig != Rig::specimen) return complaints;
+  if (auto one = velocity_complaint(channels)) complaints.push_back(*std::move(one));
   return complaints;
 }
 
@@ -100,7 +113,10 @@ DisplayUnits display_units(Rig rig, const Channels& channels) {
   }
   if (rig != Rig::specimen) return units;
   for (const Quantity quantity : {torsion, angle, displacement}) {
-    if (const Channel* motion = find(channels, quantity)) units.motion = motion->unit.symbol;
+    const Channel* motion = find(channels, quantity);
+    if (motion == nullptr) continue;
+    // Counts mean nothing without their encoder.
+    units.motion = motion->unit.symbol == kCounts ? "deg" : motion->unit.symbol;
   }
   return units;
 }

@@ -7,9 +7,12 @@
 #include <sstream>
 
 #include "flexspline/core/nearest_name.hpp"
+#include "flexspline/core/nesting.hpp"
 
 namespace flexspline::data {
 namespace {
+
+constexpr std::size_t kLargestText = std::size_t{4} << 20U;
 
 std::string written(const toml::node& node) {
   std::ostringstream text;
@@ -23,6 +26,15 @@ TomlReader::TomlReader(std::string file, std::vector<Finding>& errors)
     : file_(std::move(file)), errors_(errors) {}
 
 std::optional<toml::table> TomlReader::parse(std::string_view text) {
+  if (text.size() > kLargestText) {
+    refuse({}, fmt::format("it has {} bytes, where {} are the most", text.size(), kLargestText),
+           "such a file is not written by hand: is it the right one?");
+    return std::nullopt;
+  }
+  if (const auto flat = check_nesting(text); !flat) {
+    refuse({}, flat.error().problem, flat.error().remedy);
+    return std::nullopt;
+  }
   try {
     return toml::parse(text, file_);
   } catch (const toml::parse_error& error) {

@@ -18,27 +18,11 @@ struct Column {
   Unit unit;
 };
 
-/// The unit in which a person reads the quantity: a display unit where it fits, else SI.
-Unit unit_of(Quantity quantity, const DisplayUnits& display) {
-  const auto info = std::ranges::find(quantities(), quantity, &QuantityInfo::quantity);
-  for (const std::string& symbol : {display.motion, display.effort, display.motion + "/s"}) {
-    const auto unit = find_unit(symbol);
-    if (!unit) continue;
-    const auto& dimensions = info->dimensions;
-    if (std::ranges::find(dimensions, unit->dimension) != dimensions.end()) return *unit;
-  }
-  const Dimension dimension = info->dimensions.front();
-  const auto si = std::ranges::find_if(units(), [dimension](const Unit& unit) {
-    return unit.dimension == dimension && unit.factor == 1.0 && unit.offset == 0.0;
-  });
-  return *si;
-}
-
 /// Those of the first recording; the format has one list for all.
 Result<std::vector<Column>> columns_of(const RecordingSet& set) {
-  std::vector<Column> columns = {{Quantity::time, unit_of(Quantity::time, set.display)}};
+  std::vector<Column> columns = {{Quantity::time, display_unit(Quantity::time, set.display)}};
   for (const auto& [quantity, values] : set.recordings.front().channels) {
-    columns.push_back({quantity, unit_of(quantity, set.display)});
+    columns.push_back({quantity, display_unit(quantity, set.display)});
   }
   for (const Recording& recording : set.recordings) {
     const bool complete = std::ranges::all_of(columns, [&recording](const Column& column) {
@@ -124,6 +108,21 @@ std::string head_text(const RecordingSet& set, const std::vector<Column>& column
 }
 
 }  // namespace
+
+Unit display_unit(Quantity quantity, const DisplayUnits& display) {
+  const auto info = std::ranges::find(quantities(), quantity, &QuantityInfo::quantity);
+  for (const std::string& symbol : {display.motion, display.effort, display.motion + "/s"}) {
+    const auto unit = find_unit(symbol);
+    if (!unit) continue;
+    const auto& dimensions = info->dimensions;
+    if (std::ranges::find(dimensions, unit->dimension) != dimensions.end()) return *unit;
+  }
+  const Dimension dimension = info->dimensions.front();
+  const auto si = std::ranges::find_if(units(), [dimension](const Unit& unit) {
+    return unit.dimension == dimension && unit.factor == 1.0 && unit.offset == 0.0;
+  });
+  return *si;
+}
 
 Result<void> write_dataset(const std::filesystem::path& folder, const RecordingSet& set) {
   if (set.recordings.empty()) {

@@ -28,6 +28,7 @@ InnovationFilter::InnovationFilter(const PreparedRecord& record, std::span<const
   const auto& time = record.record.time;
   double variance = 0.0;
   double transition = 1.0;
+  if (record.rows.empty()) return;  // nothing to weigh
   double sigma = record.effort_sigma.front();
   std::size_t next = 0;
   for (std::size_t i = 0; i < time.size() && next < record.rows.size(); ++i) {

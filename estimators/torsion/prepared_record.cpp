@@ -54,6 +54,11 @@ Result<std::vector<PreparedRecord>> prepare(const std::vector<TorsionRecord>& re
                        .acceleration = Spline(t, m.acceleration),
                        .effort = Spline(t, smooth->effort),
                        .rows = rows_of(record, smooth->steady, most_rows)};
+    if (one.rows.empty()) {
+      return failure(ErrorCode::numerics,
+                     "recording " + record.id + ": no sample that could be fitted is valid",
+                     "leave it out, or correct its channel valid");
+    }
     const double quantisation = encoder_step(record.motion) / std::sqrt(12.0);
     const double range =
         *std::ranges::max_element(m.position) - *std::ranges::min_element(m.position);

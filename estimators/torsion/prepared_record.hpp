@@ -20,7 +20,7 @@ struct PreparedRecord {
   std::vector<double> effort_sigma{};  ///< a row: noise of effort and of the motion it follows
 };
 
-/// Errors: numerics, where a record cannot be reconstructed.
+/// Errors: numerics, where a record cannot be reconstructed or has no valid sample to fit.
 Result<std::vector<PreparedRecord>> prepare(const std::vector<TorsionRecord>& records,
                                             std::size_t most_rows);
 

@@ -57,6 +57,19 @@ Result<studies::StudyConfig> dataset_study(const std::filesystem::path& dataset,
   return study;
 }
 
+Result<std::size_t> rows_of(const Arguments& arguments) {
+  if (arguments.text("rows") == "all") return data::kAllRows;
+  const auto rows = arguments.integer("rows", static_cast<long>(data::kMostRows), 16, 100'000'000);
+  if (!rows) return tl::unexpected(rows.error());
+  return static_cast<std::size_t>(*rows);
+}
+
+ArgumentInfo rows_argument() {
+  return {.name = "--rows",
+          .meaning = "at most so many rows of a recording, every k-th; 20000 where absent",
+          .value = "N|all"};
+}
+
 Result<estimators::Options> parse_options(const std::vector<std::string>& given) {
   estimators::Options options;
   for (const std::string& one : given) {

@@ -11,7 +11,7 @@ Result<void> write_concealed(const std::filesystem::path& folder, ConcealedCase 
   const auto set = data::write_dataset(folder / "dataset", concealed.recordings);
   if (!set) return set;
   // The hash of what stands in the files, whose numbers are in display units.
-  const auto read = data::load_dataset(folder / "dataset");
+  const auto read = data::load_dataset(folder / "dataset", data::kAllRows);
   if (!read) return tl::unexpected(read.error());
   concealed.answer.dataset_sha256 = read->sha256;
   const nlohmann::ordered_json answer = to_json(concealed.answer);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/locked_json.hpp"
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/studies/verify.hpp"
 
@@ -46,6 +47,7 @@ InputConfig input_from(const json& from, const fs::path& data_root) {
   input.dataset = found(from.at("dataset"), data_root);
   input.holdout = from.at("holdout");
   if (from.contains("bench")) input.bench = bench_from(from.at("bench"));
+  input.rows = from.value("rows", data::kMostRows);
   if (from.contains("held_out")) {
     input.held_out = from.at("held_out").get<std::vector<std::string>>();
   }
@@ -110,6 +112,9 @@ bool has_model(const json& study) {
 Result<json> read_lock_json(const fs::path& lock) {
   const auto text = read_file(lock);
   if (!text) return tl::unexpected(text.error());
+  if (const auto flat = check_nesting(*text); !flat) {
+    return tl::unexpected(in_context(flat.error(), lock.string()));
+  }
   try {
     std::ostringstream out;
     out << toml::json_formatter{toml::parse(*text, lock.string())};

@@ -156,6 +156,9 @@ InputConfig read_input(TomlSection& section, const StudyConfig& study,
   check_grid(section, "holdout", input.holdout, study, {});
   input.held_out = read_held_out(section, input);
   input.bench = read_own_bench(section, input, study.bench);
+  if (section.has("rows")) {
+    input.rows = static_cast<std::size_t>(section.integer("rows", 0, 100'000'000).value_or(0));
+  }
   if (input.dataset.is_relative() && !input.dataset.empty()) {
     input.dataset = (data_root / input.dataset).lexically_normal();
   }

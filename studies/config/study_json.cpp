@@ -57,6 +57,7 @@ ordered_json to_json(const StudyConfig& study) {
                       {"holdout", input.holdout}});
     if (input.bench) inputs.back()["bench"] = to_json(*input.bench);
     if (input.held_out) inputs.back()["held_out"] = *input.held_out;
+    if (input.rows != data::kMostRows) inputs.back()["rows"] = input.rows;
   }
   ordered_json& rows = object["estimator"] = ordered_json::array();
   for (const EstimatorConfig& row : study.estimators) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 
 namespace flexspline::studies {
@@ -20,6 +21,10 @@ Result<std::vector<data::Finding>> read_toml_root(const std::filesystem::path& f
   const Result<std::string> content = read_file(file);
   if (!content) return tl::unexpected(content.error());
   std::vector<data::Finding> findings;
+  if (const auto flat = check_nesting(*content); !flat) {
+    findings.push_back({file.string(), 0, 0, flat.error().problem, flat.error().remedy});
+    return findings;
+  }
   try {
     const toml::table parsed = toml::parse(*content, file.string());
     TomlSection root(parsed, "", file.string(), findings);

@@ -94,8 +94,13 @@ Result<void> hold_out(const std::vector<std::string>& ids, RecordingSet& set, st
   return {};
 }
 
+/// What was decided in reading comes after what was decided in splitting.
+void add_notes(const RecordingSet& set, std::string& note) {
+  for (const std::string& one : set.notes) note += (note.empty() ? "" : "; ") + one;
+}
+
 Result<RecordingSet> split_dataset(const InputConfig& input, std::string& note) {
-  Result<RecordingSet> set = data::load_dataset(input.dataset);
+  Result<RecordingSet> set = data::load_dataset(input.dataset, input.rows);
   if (!set) return tl::unexpected(in_context(set.error(), "input " + input.id));
   Result<std::vector<TorsionRecord>> records = torsion_records(*set);
   if (!records) return tl::unexpected(in_context(records.error(), "input " + input.id));
@@ -103,9 +108,11 @@ Result<RecordingSet> split_dataset(const InputConfig& input, std::string& note) 
     if (auto held = hold_out(*input.held_out, *set, note); !held) {
       return tl::unexpected(in_context(held.error(), "input " + input.id));
     }
+    add_notes(*set, note);
     return set;
   }
   note = split_recordings(*records);
+  add_notes(*set, note);
   for (std::size_t i = 0; i < records->size(); ++i) set->recordings[i].split = (*records)[i].split;
   return set;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/locked_json.hpp"
+#include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 
 namespace flexspline::studies {
@@ -20,7 +21,7 @@ json origin_of(const fs::path& folder) {
   if (auto lock = read_lock_json(folder / "study.lock.toml")) return *std::move(lock);
   for (const char* name : {"diagnosis.json", "trial.json"}) {
     const auto text = read_file(folder / name);
-    if (!text) continue;
+    if (!text || !check_nesting(*text)) continue;
     const json artefact = json::parse(*text, nullptr, false);
     if (!artefact.is_object()) continue;
     json origin = json::object();

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 struct Refusal {
   const char* name;
   const char* piece;  ///< of the description, or of the table when in_table
-  const char* instead;
+  std::string_view instead;
   bool in_table;
   const char* place;  ///< "file:line:column"
   const char* words;
@@ -27,8 +27,11 @@ class Refuses : public InFolder, public testing::WithParamInterface<Refusal> {};
 
 TEST_P(Refuses, NamingThePlace) {
   const Refusal& bad = GetParam();
-  put("dataset.toml", bad.in_table ? kDescription : with(kDescription, bad.piece, bad.instead));
-  put("a.csv", bad.in_table ? with(sound_table(), bad.piece, bad.instead) : sound_table());
+  put("dataset.toml",
+      bad.in_table ? kDescription : with(kDescription, bad.piece, std::string(bad.instead)));
+  put("a.csv",
+      bad.in_table ? with(sound_table(), bad.piece, std::string(bad.instead)) : sound_table());
+  put("b.csv", sound_table());
   const DatasetReading reading = read_dataset(folder_);
   EXPECT_FALSE(reading.set.has_value());
   ASSERT_EQ(reading.errors.size(), 1U)
@@ -60,8 +63,30 @@ const Refusal kInDescription[] = {
     {"unit_absent", ", unit = \"deg\"", "", false, "dataset.toml:11:9", "no 'unit'"},
     {"dimension", "unit = \"deg\"", "unit = \"Nm\"", false, "dataset.toml:11:44",
      "unit 'Nm' is of dimension torque, but a motor_angle is of dimension angle"},
-    {"channel_key", "unit = \"deg\"", "unit = \"deg\", scale = 2", false, "dataset.toml:11:51",
-     "unknown key 'scale'"},
+    {"channel_key", "unit = \"deg\"", "unit = \"deg\", scael = 2", false, "dataset.toml:11:51",
+     "unknown key 'scael'; did you mean 'scale'?"},
+    {"channel_sign", "unit = \"deg\"", "unit = \"deg\", sign = 2", false, "dataset.toml:11:58",
+     "sign is 2; give 1 or -1"},
+    {"channel_scale", "unit = \"deg\"", "unit = \"deg\", scale = -2", false, "dataset.toml:11:59",
+     "scale is -2; give 1e-12 to 1e12; a direction belongs into sign"},
+    {"channel_of_time", "unit = \"s\"", "unit = \"s\", sign = -1", false, "dataset.toml:10:45",
+     "a time takes no sign"},
+    {"counts_bare", "unit = \"deg\"", "unit = \"counts\"", false, "dataset.toml:11:9",
+     "no 'counts_per_rev' here"},
+    {"counts_of_none", "unit = \"deg\"", "unit = \"counts\", counts_per_rev = 0", false,
+     "dataset.toml:11:71", "counts_per_rev is 0"},
+    {"counts_unused", "unit = \"deg\"", "unit = \"deg\", counts_per_rev = 4096", false,
+     "dataset.toml:11:68", "counts_per_rev beside the unit 'deg'"},
+    {"counts_of_torque", "unit = \"Nm\"", "unit = \"counts\"", false, "dataset.toml:12:49",
+     "unknown unit 'counts'"},
+    {"inertia_sign", "gear_ratio = 50", "gear_ratio = 50\nmotor_inertia_kgm2 = -1", false,
+     "dataset.toml:8:22", "motor_inertia_kgm2 is -1, which is not positive"},
+    {"gear_ratio_huge", "= 50", "= 1e300", false, "dataset.toml:7:14",
+     "gear_ratio is 1e+300, which is implausible (at most 1e+06)"},
+    {"start_huge", "frequency_hz = 0.5", "start_s = 1e18", false, "dataset.toml:19:11",
+     "start_s is 1e+18"},
+    {"amplitude_huge", "amplitude_deg = 0.2", "amplitude_deg = 1e200", false, "dataset.toml:18:17",
+     "values of dimension angle are at most 1e+09 rad"},
     {"channel_type", "{ quantity = \"time\", unit = \"s\" }", "\"s\"", false, "dataset.toml:10:5",
      "channel 't' is not a table"},
     {"quantity_twice", "[[recording]]", "x = { quantity = \"time\", unit = \"ms\" }\n[[recording]]",
@@ -71,23 +96,14 @@ const Refusal kInDescription[] = {
     {"id_absent", "id = \"a\"", "", false, "dataset.toml:14:1", "no 'id'"},
     {"id_empty", "id = \"a\"", "id = \"\"", false, "dataset.toml:15:6", "is empty"},
     {"id_twice", "frequency_hz = 0.5",
-     "frequency_hz = 0.5\n[[recording]]\nid = \"a\"\nfile = \"a.csv\"", false, "dataset.toml:21:6",
+     "frequency_hz = 0.5\n[[recording]]\nid = \"a\"\nfile = \"b.csv\"", false, "dataset.toml:21:6",
      "two recordings have the id 'a', the other on line 15"},
-    {"pass_without_start", "[[recording]]",
-     "[[recording]]\nid = \"a\"\nfile = \"a.csv\"\nexcitation = \"sine\"\namplitude_deg = 0.2\n"
-     "frequency_hz = 0.5\n[[recording]]",
-     false, "dataset.toml:21:6", "two recordings have the id 'a', the other on line 15"},
-    {"pass_of_another_file", "[[recording]]",
-     "[[recording]]\nid = \"a\"\nfile = \"./a.csv\"\nexcitation = \"sine\"\n"
-     "amplitude_deg = 0.2\nfrequency_hz = 0.5\nstart_s = 9\n[[recording]]",
-     false, "dataset.toml:22:6", "two recordings have the id 'a', the other on line 15"},
-    {"pass_at_another_rate", "[[recording]]",
-     "[[recording]]\nid = \"a\"\nfile = \"a.csv\"\nexcitation = \"sine\"\namplitude_deg = 0.2\n"
-     "frequency_hz = 0.6\nstart_s = 9\n[[recording]]",
-     false, "dataset.toml:22:6", "two recordings have the id 'a', the other on line 15"},
+    {"file_twice", "frequency_hz = 0.5",
+     "frequency_hz = 0.5\n[[recording]]\nid = \"b\"\nfile = \"./a.csv\"", false,
+     "dataset.toml:22:8", "two recordings have the file './a.csv', the other on line 16"},
     {"file_absent", "file = \"a.csv\"", "", false, "dataset.toml:14:1", "no 'file'"},
-    {"file_missing", "\"a.csv\"", "\"b.csv\"", false, "dataset.toml:16:8",
-     "file 'b.csv' is not there"},
+    {"file_missing", "\"a.csv\"", "\"c.csv\"", false, "dataset.toml:16:8",
+     "file 'c.csv' is not there"},
     {"file_absolute", "\"a.csv\"", "\"/etc/hostname\"", false, "dataset.toml:16:8", "absolute"},
     {"file_climbs", "\"a.csv\"", "\"../a.csv\"", false, "dataset.toml:16:8",
      "climbs out of the folder"},
@@ -122,7 +138,30 @@ const Refusal kInTable[] = {
     {"short_row", "1.0,4,-2", "1.0,4", true, "a.csv:4:5", "2 cells in a table of 3 columns"},
     {"long_row", "1.0,4,-2", "1.0,4,-2,9", true, "a.csv:4:10", "4 cells in a table of 3 columns"},
     {"decimal_comma", "1.0,4,-2", "1,0,4,1,-2,1", true, "a.csv:4:7", "decimal comma"},
-    {"blank_row", "1.0,4,-2\n", "\n1.0,4,-2\n", true, "a.csv:4:1", "1 cells"},
+    {"blank_row", "1.0,4,-2\n", "\n1.0,4,-2\n", true, "a.csv:4:1", "the line is empty"},
+    {"implausible_angle", "1.0,4,", "1.0,1e200,", true, "a.csv:4:5",
+     "column 'theta': 1e200 is implausible: values of dimension angle are at most 1e+09 rad"},
+    {"implausible_torque", "1.0,4,-2", "1.0,4,-1e10", true, "a.csv:4:7",
+     "at most 1e+09 Nm; correct the cell or the unit"},
+    {"implausible_time", "7.5,30", "1e18,30", true, "a.csv:17:1", "at most 1e+11 s"},
+    {"pause", "7.5,30", "7e5,30", true, "a.csv:17:1",
+     "jumps by 7e+05 s, where all the rest lasts 7"},
+    {"unit_row", "t,theta,tau\n", "t,theta,tau\n[s],[deg],[Nm]\n", true, "a.csv:2:1",
+     "holds no numbers, '[s],[deg],[Nm]'; delete it; units are stated in [channels]"},
+    {"comment_above", "t,theta,tau\n", "# bench 3\nt,theta,tau\n", true, "a.csv:1:1",
+     "the first line is a comment, '# bench 3'; delete the lines above the names"},
+    {"comment_within", "1.0,4,-2\n", "# pause\n1.0,4,-2\n", true, "a.csv:4:1",
+     "the line is a comment, '# pause'; delete it"},
+    {"no_names", "t,theta,tau\n", "", true, "a.csv:1:1", "the first line holds numbers"},
+    {"blanks", "t,theta,tau", "t theta tau", true, "a.csv:1:1",
+     "separated by blanks; separate names and numbers by commas"},
+    {"spreadsheet_hint", "t,theta,tau\n", "sep=,\nt,theta,tau\n", true, "a.csv:1:1", "'sep='"},
+    {"iso_time", "1.0,4,", "2024-05-03T10:00:01,4,", true, "a.csv:4:1",
+     "column 't': '2024-05-03T10:00:01' is a date or time of day; write seconds"},
+    {"number_with_unit", "1.0,4,", "1.0,4 deg,", true, "a.csv:4:5",
+     "column 'theta': '4 deg' carries its unit; write the number alone"},
+    {"nul", "t,theta", std::string_view("t,\0heta", 7), true, "a.csv:1:3", "NUL bytes"},
+    {"carriage_returns", "t,theta,tau\n", "t,theta,tau\r0,0,0\r", true, "a.csv:1:12", "CR alone"},
     {"few_samples", "7.5,30,-15\n", "", true, "a.csv:16:1", "15 samples, where 16 are the fewest"},
     {"utf_16", "t,theta", "\xFF\xFEt,theta", true, "a.csv:1:1", "UTF-16"},
 };

@@ -79,16 +79,18 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!where) return tl::unexpected(where.error());
   const std::vector<std::string> ids = split_ids(arguments.text("estimators"));
   if (ids.empty()) return failure(ErrorCode::usage, "--estimators names none", "give ID,ID,…");
-  const auto study =
-      dataset_study(arguments.text("dataset"), ids, arguments.text("train", "all"), {});
+  const auto rows = rows_of(arguments);
+  if (!rows) return tl::unexpected(rows.error());
+  auto study = dataset_study(arguments.text("dataset"), ids, arguments.text("train", "all"), {});
   if (!study) return tl::unexpected(study.error());
+  study->inputs.front().rows = *rows;
   std::filesystem::path report;
   const auto summary = run_in_folder(*study, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
-  const ordered_json rows = table_of(*study, where->folder);
+  const ordered_json table = table_of(*study, where->folder);
   console.result(console.json
-                     ? rows.dump(2)
-                     : as_text(rows) + all_notes(*study, where->folder) + "\n" + report.string());
+                     ? table.dump(2)
+                     : as_text(table) + all_notes(*study, where->folder) + "\n" + report.string());
   return summary->failed.empty() ? kDone : kSomethingFailed;
 }
 
@@ -112,6 +114,7 @@ CommandRow describe_compare() {
                          .meaning = "folder for artefacts and report",
                          .value = "DIR",
                          .required = true},
+                        rows_argument(),
                         kForce,
                         {.name = "--jobs", .meaning = "workers", .value = "N"}},
           .example =

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "dataset_study.hpp"
 #include "diagnosis_artefact.hpp"
 #include "diagnosis_engine.hpp"
 #include "diagnosis_summary.hpp"
@@ -47,7 +48,9 @@ Result<std::filesystem::path> write_diagnosis(const Diagnosis& diagnosis,
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
-  const auto recordings = data::load_dataset(arguments.text("dataset"));
+  const auto rows = rows_of(arguments);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto recordings = data::load_dataset(arguments.text("dataset"), *rows);
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
   const auto engine = engine_of(arguments);
@@ -97,6 +100,7 @@ CommandRow describe_diagnose() {
                          .repeats = true},
                         engine_argument(),
                         interest_argument(),
+                        rows_argument(),
                         kForce},
           .example = "flexspline diagnose recordings/band-damper --out out/damper",
           .run = run};

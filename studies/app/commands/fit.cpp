@@ -105,9 +105,12 @@ Result<studies::StudyConfig> study_of(const Arguments& arguments,
                    "give one: an id of flexspline list estimators, or a model file whose numbers "
                    "are starts");
   }
+  const auto rows = rows_of(arguments);
+  if (!rows) return tl::unexpected(rows.error());
   auto study = dataset_study(arguments.text("dataset"), {estimator}, arguments.text("train", "all"),
                              options);
   if (!study) return study;
+  study->inputs.front().rows = *rows;
   const auto held = arguments.texts("holdout");
   if (held == std::vector<std::string>{"none"}) {
     study->inputs.front().held_out.emplace();
@@ -135,7 +138,7 @@ std::optional<Result<ExitCode>> run_on_servo(const Arguments& arguments,
                                              const estimators::Options& options, Console& console) {
   const auto& model = study.estimators.front().model;
   if (!model) return std::nullopt;
-  auto set = data::load_dataset(arguments.text("dataset"));
+  auto set = data::load_dataset(arguments.text("dataset"), study.inputs.front().rows);
   if (!set || set->rig != Rig::servo) return std::nullopt;
   const std::filesystem::path dataset = arguments.text("dataset");
   auto output = OutputFolder::claim({"fit",
@@ -178,7 +181,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
     const auto time = times.find(key);
     estimate["seconds"] = time == times.end() ? ordered_json(nullptr) : ordered_json(time->second);
     if (study->estimators.front().model) {
-      const auto set = data::load_dataset(arguments.text("dataset"));
+      const auto set = data::load_dataset(arguments.text("dataset"), study->inputs.front().rows);
       if (!set) return tl::unexpected(set.error());
       estimate["pooled_rmse"] = pooled_of(estimate, *set);
     }
@@ -228,6 +231,7 @@ CommandRow describe_fit() {
                         {.name = "--train",
                          .meaning = "all training recordings, or the one with the largest motion",
                          .value = "all|one"},
+                        rows_argument(),
                         {.name = "--out",
                          .meaning = "folder for estimate and report",
                          .value = "DIR",

@@ -55,7 +55,7 @@ Result<RecordingSet> simulated(const RigModel& model, const Arguments& arguments
     if (!excitations) return tl::unexpected(excitations.error());
     return simulate_set(torsion, *excitations, direction, {});
   }
-  const auto set = data::load_dataset(arguments.text("like"));
+  const auto set = data::load_dataset(arguments.text("like"), data::kAllRows);
   if (!set) return tl::unexpected(set.error());
   if (model.rig != Rig::specimen) return simulate_rig_set(model, *set, direction);
   const auto excitations = excitations_like(*set);

@@ -1,13 +1,16 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "dataset_summary.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/commitment.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
+#include "flexspline/data/sanity.hpp"
 #include "flexspline/studies/conceal.hpp"
 #include "flexspline/studies/plan.hpp"
 #include "flexspline/studies/trial.hpp"
@@ -16,12 +19,16 @@
 namespace flexspline::app {
 namespace {
 
+using nlohmann::ordered_json;
+
 /// What was found wrong and worth knowing.
 struct Verdict {
   std::string what;
   std::vector<std::string> errors;
   std::vector<std::string> notes;
   int code = static_cast<int>(ErrorCode::bad_data);  ///< where there are errors
+  ordered_json understood = {};                      ///< where there are none
+  std::string text = {};                             ///< the same for a person
 };
 
 std::vector<std::string> messages(const std::vector<data::Finding>& findings) {
@@ -32,7 +39,34 @@ std::vector<std::string> messages(const std::vector<data::Finding>& findings) {
 
 Verdict check_dataset(const std::filesystem::path& folder) {
   const data::DatasetReading reading = data::read_dataset(folder);
-  return {"data set", messages(reading.errors), messages(reading.notes)};
+  Verdict verdict{"data set", messages(reading.errors), messages(reading.notes)};
+  if (!reading.set) return verdict;
+  verdict.understood = dataset_summary(*reading.set);
+  verdict.text = summary_text(verdict.understood);
+  for (const data::SanityFinding& one : data::sanity_of(*reading.set)) {
+    auto& list = one.severity == data::Severity::error ? verdict.errors : verdict.notes;
+    list.push_back(one.message());
+  }
+  return verdict;
+}
+
+void understand(const studies::StudyConfig& study, const studies::StudyPlan& plan,
+                Verdict& verdict) {
+  std::vector<std::string> inputs;
+  for (const auto& input : study.inputs) inputs.push_back(input.id);
+  std::vector<std::string> estimators;
+  for (const auto& estimator : study.estimators) estimators.push_back(estimator.id);
+  verdict.understood = {{"name", study.name},
+                        {"seed", study.seed},
+                        {"replicates", study.replicates},
+                        {"inputs", inputs},
+                        {"estimators", estimators},
+                        {"cases", plan.cases.size()},
+                        {"estimated_seconds", plan.estimated_seconds}};
+  verdict.text =
+      fmt::format("{}: {} cases, about {:.2g} s of computing\n  inputs      {}\n  estimators  {}",
+                  study.name, plan.cases.size(), plan.estimated_seconds, fmt::join(inputs, ", "),
+                  fmt::join(estimators, ", "));
 }
 
 Result<Verdict> check_study(const std::filesystem::path& file, const std::string& data_root) {
@@ -42,6 +76,7 @@ Result<Verdict> check_study(const std::filesystem::path& file, const std::string
   if (!reading->study) return verdict;
   const auto plan = studies::plan_study(*reading->study, build_id());
   if (plan) {
+    understand(*reading->study, *plan, verdict);
     for (const auto& [input, note] : plan->notes) verdict.notes.push_back(input + ": " + note);
   } else {
     verdict.errors.push_back(plan.error().message());
@@ -50,12 +85,70 @@ Result<Verdict> check_study(const std::filesystem::path& file, const std::string
   return verdict;
 }
 
-/// A file of which nothing but the text has to be checked.
-template <auto Read>
-Result<Verdict> check_plain(std::string what, const std::filesystem::path& file) {
-  const auto reading = Read(file);
+std::string hidden_words(const studies::ConcealPlan& plan) {
+  if (plan.draw) return "drawn";
+  std::string words;
+  for (const data::HiddenEffect& one : plan.effects) {
+    words += fmt::format("{}{} of {:.3g} % of peak torque", words.empty() ? "" : ", ", one.id,
+                         100.0 * one.size_fraction);
+  }
+  return words.empty() ? "nothing" : words;
+}
+
+Result<Verdict> check_bench(const std::filesystem::path& file) {
+  const auto reading = studies::read_conceal_plan(file);
   if (!reading) return tl::unexpected(reading.error());
-  return Verdict{std::move(what), messages(reading->errors), {}};
+  Verdict verdict{"bench", messages(reading->errors), {}};
+  if (!reading->plan) return verdict;
+  const studies::ConcealPlan& plan = *reading->plan;
+  const std::string hidden = hidden_words(plan);
+  const std::string recordings =
+      plan.design.empty() ? std::string("drawn") : std::to_string(plan.design.size());
+  verdict.understood = {{"rig", name_of(plan.rig)},
+                        {"seed", plan.seed},
+                        {"hides", hidden},
+                        {"recordings", recordings}};
+  verdict.text = fmt::format("{} rig, seed {}\n  hides       {}\n  recordings  {}",
+                             name_of(plan.rig), plan.seed, hidden, recordings);
+  return verdict;
+}
+
+Result<Verdict> check_trial(const std::filesystem::path& file) {
+  const auto reading = studies::read_trial(file);
+  if (!reading) return tl::unexpected(reading.error());
+  Verdict verdict{"trial", messages(reading->errors), {}};
+  if (!reading->trial) return verdict;
+  const studies::TrialConfig& trial = *reading->trial;
+  std::vector<std::string_view> rigs;
+  for (const Rig rig : trial.rigs) rigs.push_back(name_of(rig));
+  verdict.understood = {
+      {"name", trial.name}, {"seed", trial.seed}, {"cases", trial.cases}, {"rigs", rigs}};
+  verdict.text = fmt::format("{}: {} cases, seed {}\n  rigs        {}", trial.name, trial.cases,
+                             trial.seed, fmt::join(rigs, ", "));
+  return verdict;
+}
+
+std::string law_words(const LawSpec& law) {
+  std::string words = fmt::format("{}, {} coefficients", law.law, law.coefficients.size());
+  if (law.valid_to > 0.0) words += fmt::format(", valid to {:.4g} in SI", law.valid_to);
+  return words;
+}
+
+Verdict check_model(const std::string& content, const std::string& path) {
+  const auto model = data::parse_model(content, path);
+  if (!model) return {"model", {model.error().message()}, {}};
+  std::vector<std::string> effects;
+  for (const EffectSpec& one : model->effects) effects.push_back(one.effect);
+  Verdict verdict{"model", {}, {}};
+  verdict.understood = {{"f", law_words(model->f)},
+                        {"g_inverse", law_words(model->g_inverse)},
+                        {"h", law_words(model->h)},
+                        {"effects", effects}};
+  verdict.text =
+      fmt::format("f          {}\n  g_inverse  {}\n  h          {}\n  effects    {}",
+                  law_words(model->f), law_words(model->g_inverse), law_words(model->h),
+                  effects.empty() ? "none" : fmt::format("{}", fmt::join(effects, ", ")));
+  return verdict;
 }
 
 /// An answer against the commitment beside it.
@@ -73,15 +166,13 @@ Result<Verdict> check(const std::filesystem::path& path, const std::string& data
   if (content->find("flexspline-dataset/") != std::string::npos)
     return check_dataset(path.parent_path());
   if (content->find("flexspline-model/") != std::string::npos) {
-    const auto model = data::parse_model(*content, path.string());
-    return Verdict{
-        "model", model ? std::vector<std::string>{} : std::vector{model.error().message()}, {}};
+    return check_model(*content, path.string());
   }
   if (content->find("flexspline-bench/") != std::string::npos) {
-    return check_plain<&studies::read_conceal_plan>("bench", path);
+    return check_bench(path);
   }
   if (content->find("flexspline-trial/") != std::string::npos) {
-    return check_plain<[](const auto& file) { return studies::read_trial(file); }>("trial", path);
+    return check_trial(path);
   }
   if (content->find(data::kSealedSchema) != std::string::npos) return check_seal(path);
   return check_study(path, data_root);
@@ -93,15 +184,17 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!verdict) return tl::unexpected(verdict.error());
   const bool valid = verdict->errors.empty();
   if (console.json) {
-    const nlohmann::ordered_json text = {{"path", path},
-                                         {"is", verdict->what},
-                                         {"valid", valid},
-                                         {"errors", verdict->errors},
-                                         {"notes", verdict->notes}};
-    console.result(text.dump(2));
+    const ordered_json text = {{"path", path},
+                               {"is", verdict->what},
+                               {"valid", valid},
+                               {"errors", verdict->errors},
+                               {"notes", verdict->notes},
+                               {"understood", verdict->understood}};
+    console.result(text.dump(2, ' ', false, ordered_json::error_handler_t::replace));
   } else {
     for (const std::string& error : verdict->errors) console.result("error: " + error);
     for (const std::string& note : verdict->notes) console.result("note: " + note);
+    if (!verdict->text.empty()) console.result("  " + verdict->text);
     console.result(
         fmt::format("{}: {} {}", path, valid ? "a valid" : "not a valid", verdict->what));
   }
@@ -113,8 +206,8 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_validate() {
   return {.id = "validate",
           .summary =
-              "Checks a study, trial, bench, model or data set and says everything that is wrong "
-              "at once",
+              "Checks a study, trial, bench, model or data set: everything that is wrong at once, "
+              "and what was understood",
           .arguments = {{.name = "path",
                          .meaning = "study, trial, bench or model file, or folder of a data set",
                          .value = "FILE|DATASET",

@@ -35,7 +35,8 @@ struct Unit {
 /// ms.
 std::span<const Unit> units();
 
-/// The unit with exactly this symbol.
+/// The unit with this symbol, or with another spelling that can mean nothing else ("N.m", "°",
+/// "in-lb"); its symbol is then that of units().
 std::optional<Unit> find_unit(std::string_view symbol);
 
 /// Name of a dimension for messages, e.g. "angle".

@@ -47,6 +47,7 @@ struct InputConfig {
   std::string holdout;            ///< id of the grid that is evaluated and never trained on
   /// Of a data set: exactly these recordings are held out, whatever it marks itself.
   std::optional<std::vector<std::string>> held_out{};
+  std::size_t rows = data::kMostRows;  ///< of a data set: at most, of a recording; 0: all
   std::optional<BenchConfig> bench{};  ///< of a truth: instead of the study's
 };
 
