@@ -121,10 +121,9 @@ Result<OutputFolder> OutputFolder::claim(const OutputWish& wish) {
   if (auto apart = keep_inputs_apart(wish); !apart) return tl::unexpected(apart.error());
   OutputFolder claimed;
   claimed.folder_ = wish.folder;
-  claimed.manifest_ = {.command = wish.command, .input = wish.input, .sha256 = wish.sha256};
-  if (!wish.place.empty()) {
-    claimed.manifest_.place = data::sha256_hex(resolved(wish.place).generic_string());
-  }
+  const std::string place =
+      wish.place.empty() ? "" : data::sha256_hex(resolved(wish.place).generic_string());
+  claimed.manifest_ = {wish.command, wish.input, wish.sha256, place, false, {}};
   const auto empty = check_content(wish, claimed.manifest_);
   if (!empty) return tl::unexpected(empty.error());
   claimed.taken_over_ = !*empty;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -61,7 +62,11 @@ class SpoiltInputs {
     make_outputs();
     fs::copy(world(), folder_.path() / "pristine", fs::copy_options::recursive);
     before_ = hashes(world());
-    for (const auto& [file, sum] : before_) files_.push_back(file);
+    std::set<std::pair<fs::path, fs::path>> kinds;
+    for (const auto& [file, sum] : before_) {
+      const fs::path path = file;
+      if (kinds.emplace(path.parent_path(), path.extension()).second) files_.push_back(file);
+    }
     for (const auto& entry : fs::recursive_directory_iterator(world())) {
       if (entry.is_directory()) folders_.push_back(entry.path().string());
     }
@@ -382,7 +387,8 @@ class SpoiltInputs {
   ScratchFolder folder_;
   std::vector<CommandSpec> commands_;
   std::map<std::string, std::string> before_;
-  std::vector<std::string> files_, folders_;
+  std::vector<std::string> files_;  ///< of every folder one of each kind
+  std::vector<std::string> folders_;
   std::map<std::string, std::map<int, std::size_t>> counts_;
   double longest_ = 0.0;
 };
