@@ -120,7 +120,7 @@ Result<Verdict> check_trial(const std::filesystem::path& file) {
   if (!reading->trial) return verdict;
   const studies::TrialConfig& trial = *reading->trial;
   std::vector<std::string_view> rigs;
-  for (const Rig rig : trial.rigs) rigs.push_back(name_of(rig));
+  for (const data::BenchKind rig : trial.rigs) rigs.push_back(name_of(rig));
   verdict.understood = {
       {"name", trial.name}, {"seed", trial.seed}, {"cases", trial.cases}, {"rigs", rigs}};
   verdict.text = fmt::format("{}: {} cases, seed {}\n  rigs        {}", trial.name, trial.cases,
