@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/estimators/method.hpp"
+#include "posterior/judge_fit.hpp"
 #include "torsion/free_terms.hpp"
 #include "torsion/trajectory_fit.hpp"
 #include "uncertainty/bands.hpp"
@@ -101,6 +102,23 @@ void take(const Intervals& found, Estimate& estimate) {
   estimate.notes.insert(estimate.notes.end(), found.notes.begin(), found.notes.end());
 }
 
+// Bands and verdict by what the recordings say without the classes of the laws.
+void judge(const std::vector<PreparedRecord>& records, const TrajectoryFit& fit, bool with_h,
+           Estimate& estimate) {
+  const auto posterior = torsion_posterior(records, fit.at.layout, fit.at.p, with_h);
+  if (!posterior) {
+    estimate.notes.push_back("the bands count the classes of f, g^-1 and h as known: " +
+                             posterior.error().message());
+    return;
+  }
+  const Ranges ranges = ranges_of(records, false);
+  auto result = judged(*posterior, fit.at.layout, fit.at.p,
+                       {ranges.lowest_motion, ranges.highest_motion, ranges.velocity},
+                       std::move(estimate.identifiability));
+  estimate.bands = std::move(result.bands);
+  estimate.identifiability = std::move(result.identifiability);
+}
+
 Result<Estimate> fit(const FitProblem& problem) {
   const auto started = std::chrono::steady_clock::now();
   const MethodRow method = describe_trajectory_ceres();
@@ -152,6 +170,8 @@ Result<Estimate> fit(const FitProblem& problem) {
   if (found->covariance.size() > 0) result->covariance = found->covariance;
   Estimate estimate = estimate_of(*result, *records, *decision);
   take(*found, estimate);
+  const bool by_law = found->covariance.size() == 0 && !travels && !base.zeros;
+  if (by_law) judge(*records, *result, decision->free.h > 0, estimate);
   estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return estimate;
