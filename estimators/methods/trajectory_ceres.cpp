@@ -32,9 +32,9 @@ Result<Estimate> fit(const FitProblem& problem) {
     result = fit_torsion(begun->fit, begun->records, settings.solver, integrator);
   }
   if (!result) return tl::unexpected(result.error());
-  auto estimate =
-      torsion_estimate("trajectory_ceres", std::move(*result), *begun,
-                       {uncertainty_settings(problem, method), settings.solver, integrator});
+  auto estimate = torsion_estimate("trajectory_ceres", std::move(*result), *begun,
+                                   {uncertainty_settings(problem, method), settings.solver,
+                                    integrator, word(problem, method, "bands") == "mixed_model"});
   if (!estimate) return tl::unexpected(estimate.error());
   estimate->seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -1,5 +1,6 @@
 #include "torsion/torsion_estimate.hpp"
 
+#include "posterior/judge_fit.hpp"
 #include "uncertainty/bands.hpp"
 #include "uncertainty/estimate_parts.hpp"
 #include "uncertainty/torsion_intervals.hpp"
@@ -37,6 +38,30 @@ void take(const Intervals& found, Estimate& estimate) {
   estimate.notes.insert(estimate.notes.end(), found.notes.begin(), found.notes.end());
 }
 
+/// Bands and verdict by what the recordings say without the classes of the laws. Not for motions
+/// that travel, zeros of recordings, or draws of a bootstrap.
+void judge(const std::vector<PreparedRecord>& records, const TrajectoryFit& fit, bool with_h,
+           Estimate& estimate) {
+  const TorsionLayout& layout = fit.at.layout;
+  if (records.front().record.travels || layout.free_terms().zeros) {
+    estimate.notes.emplace_back(
+        "bands within the class: a mixed model is not made of motions that travel, nor of zeros "
+        "of recordings");
+    return;
+  }
+  const auto posterior = torsion_posterior(records, layout, fit.solution.p, with_h);
+  if (!posterior) {
+    estimate.notes.push_back("bands within the class: " + posterior.error().message());
+    return;
+  }
+  const Ranges ranges = ranges_of(records, false);
+  auto result = judged(*posterior, layout, fit.solution.p,
+                       {ranges.lowest_motion, ranges.highest_motion, ranges.velocity},
+                       std::move(estimate.identifiability));
+  estimate.bands = std::move(result.bands);
+  estimate.identifiability = std::move(result.identifiability);
+}
+
 }  // namespace
 
 Result<Estimate> torsion_estimate(std::string estimator, TrajectoryFit fit, const StaticFit& begun,
@@ -66,6 +91,7 @@ Result<Estimate> torsion_estimate(std::string estimator, TrajectoryFit fit, cons
   estimate.notes = decision.notes;
   estimate.evaluations = fit.solution.evaluations;
   take(*found, estimate);
+  if (settings.mixed_model_bands) judge(records, fit, decision.free.h > 0, estimate);
   return estimate;
 }
 

@@ -11,6 +11,7 @@ struct TorsionIntervalSettings {
   UncertaintySettings uncertainty;
   SolverSettings solver;
   IntegratorSettings integrator{};  ///< where the torsion was simulated
+  bool mixed_model_bands = false;   ///< bands and verdict that do not take the class as known
 };
 
 /// The estimate of a fit that began with this one, with its intervals and bands.

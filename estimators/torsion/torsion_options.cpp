@@ -27,6 +27,10 @@ std::vector<OptionInfo> with_torsion_options(std::vector<OptionInfo> own) {
        .meaning = "where intervals of parameters come from; bands of f, g^-1 and h "
                   "follow the bootstrap, else the covariance",
        .choices = {"covariance", "profile", "bootstrap_parametric", "bootstrap_block"}},
+      {.name = "bands",
+       .meaning = "of f, g^-1 and h: within the fitted class; or of a penalised mixed model of "
+                  "eq. (4), which counts what no class follows (docs/fits.md)",
+       .choices = {"class", "mixed_model"}},
       {.name = "replicates",
        .meaning = "refits of the bootstrap",
        .value = 200,

@@ -25,14 +25,11 @@ FunctionBand band_of(std::string function, const Law& law, double from, double t
   FunctionBand band{.function = std::move(function)};
   band.valid_from = from;
   band.valid_to = to;
-  const double middle = 0.5 * (from + to);
-  const double half = 0.5 * (to - from) * kBeyond;
   std::vector<double> gradient(law.spec().coefficients.size());
   for (auto* column : {&band.argument, &band.value, &band.lower, &band.upper}) {
     column->reserve(kPoints);
   }
-  for (int k = 0; k < kPoints; ++k) {
-    const double x = middle + half * (2.0 * k / (kPoints - 1) - 1.0);
+  for (const double x : band_arguments(from, to)) {
     const double value = law.value(x);
     law.gradient(x, gradient);
     const Ends ends = spread(value, gradient);
@@ -86,6 +83,14 @@ std::vector<FunctionBand> bands_of(const TorsionLayout& layout, std::span<const 
 }
 
 }  // namespace
+
+std::vector<double> band_arguments(double from, double to) {
+  const double middle = 0.5 * (from + to);
+  const double half = 0.5 * (to - from) * kBeyond;
+  std::vector<double> list;
+  for (int k = 0; k < kPoints; ++k) list.push_back(middle + half * (2.0 * k / (kPoints - 1) - 1.0));
+  return list;
+}
 
 FunctionBand law_band(std::string function, const Law& law, const Eigen::MatrixXd& covariance,
                       double from, double to) {

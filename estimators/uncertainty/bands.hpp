@@ -16,6 +16,9 @@ struct Domain {
   double velocity = kNotComputed;
 };
 
+/// Where bands are drawn: evenly, to 1.3 times the domain so that the end of it can be seen.
+std::vector<double> band_arguments(double from, double to);
+
 /// Says that bands come from draws.
 struct DrawnBands {};
 

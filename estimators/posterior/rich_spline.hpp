@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "flexspline/core/cubic_basis.hpp"
+
+namespace flexspline::estimators {
+
+/// A cubic spline with many even intervals over a coordinate u(x) that may be finer about zero,
+/// less its value at x = 0: the gauge of f, g^-1 and ln h.
+class RichSpline {
+ public:
+  /// fine: x below which the coordinate is logarithmic; 0: even everywhere.
+  RichSpline(double from, double to, std::size_t intervals, double fine);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(basis_.size()); }
+  /// Weights of the coefficients in the value and the slope at x, straight on beyond the ends.
+  void value(double x, Eigen::Ref<Eigen::RowVectorXd> row) const;
+  void slope(double x, Eigen::Ref<Eigen::RowVectorXd> row) const;
+  /// How far x lies beyond the ends, in intervals.
+  double beyond(double x) const;
+
+ private:
+  double coordinate(double x) const;
+  double coordinate_slope(double x) const;
+
+  double fine_, scale_, from_, to_, width_;
+  CubicBasis basis_;
+  Eigen::RowVectorXd at_zero_;
+};
+
+}  // namespace flexspline::estimators

@@ -1,0 +1,127 @@
+#include "posterior/torsion_regression.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexspline::estimators {
+namespace {
+
+Eigen::Index errors_of(const FoldedRecord& record) {
+  Eigen::Index count = 0;
+  for (const auto& error : record.motion) count += error.angular_frequency > 0.0 ? 2 : 1;
+  return count;
+}
+
+}  // namespace
+
+RegressionColumns regression_columns(const RichLaws& laws, const std::vector<FoldedRecord>& records,
+                                     bool with_h) {
+  RegressionColumns at;
+  at.g = at.f + laws.f.size();
+  at.jump = at.g + laws.g_inverse.size();
+  Eigen::Index next = at.jump + 1;
+  if (with_h) {
+    at.h = next;
+    next += laws.log_h.size();
+  }
+  at.inertia = next++;
+  at.delay = next++;
+  at.motion = next;
+  for (const auto& one : records) next += errors_of(one);
+  at.size = next;
+  return at;
+}
+
+// What eq. (4) is at one row.
+struct TorsionRegression::Point {
+  Eigen::RowVectorXd f, g, h;  // values of the splines' functions
+  double log_h = 0.0;
+  double speed = 0.0;    // phi'/h
+  double damping = 0.0;  // slope of g^-1 there
+  double along_motion = 0.0;
+  double along_speed = 0.0;
+};
+
+TorsionRegression::TorsionRegression(const RichLaws& laws, const RegressionColumns& at,
+                                     const std::vector<FoldedRecord>& records)
+    : laws_(laws), at_(at), records_(records) {
+  double fastest = 0.0;
+  Eigen::Index next = at.motion;
+  for (const auto& one : records) {
+    motion_.push_back(next);
+    next += errors_of(one);
+    for (std::size_t i = 0; i < one.time.size(); ++i) {
+      fastest = std::max(fastest, std::abs(one.velocity[i]));
+      largest_acceleration_ = std::max(largest_acceleration_, std::abs(one.acceleration[i]));
+    }
+  }
+  time_scale_ = fastest / largest_acceleration_;
+}
+
+TorsionRegression::Point TorsionRegression::point(const FoldedRecord& one, std::size_t k,
+                                                  const Eigen::VectorXd& c) const {
+  Point p;
+  const double phi = one.position[k];
+  p.f.resize(laws_.f.size());
+  p.g.resize(laws_.g_inverse.size());
+  p.h.resize(laws_.log_h.size());
+  Eigen::RowVectorXd slope(laws_.log_h.size());
+  double bend = 0.0;
+  if (at_.h >= 0) {
+    const auto own = c.segment(at_.h, p.h.size());
+    laws_.log_h.value(phi, p.h);
+    laws_.log_h.slope(phi, slope);
+    p.log_h = p.h.dot(own);
+    bend = slope.dot(own);
+  }
+  const double modulation = std::exp(-p.log_h);
+  p.speed = one.velocity[k] * modulation;
+  laws_.g_inverse.value(p.speed, p.g);
+  slope.resize(p.g.size());
+  laws_.g_inverse.slope(p.speed, slope);
+  p.damping = slope.dot(c.segment(at_.g, p.g.size()));
+  laws_.f.value(phi, p.f);
+  slope.resize(p.f.size());
+  laws_.f.slope(phi, slope);
+  p.along_motion = slope.dot(c.segment(at_.f, p.f.size())) - p.damping * p.speed * bend;
+  p.along_speed = p.damping * modulation;
+  return p;
+}
+
+void TorsionRegression::fill_motion(const FoldedRecord& one, std::size_t k, const Point& at,
+                                    Eigen::Ref<Eigen::RowVectorXd> row) const {
+  Eigen::Index next = 0;
+  for (const auto& error : one.motion) {
+    const double angle = error.angular_frequency * (one.time[k] - one.phase_zero);
+    const double faster = at.along_speed * error.angular_frequency;
+    row[next++] = error.sigma * (at.along_motion * std::cos(angle) - faster * std::sin(angle));
+    if (!(error.angular_frequency > 0.0)) continue;
+    row[next++] = error.sigma * (at.along_motion * std::sin(angle) + faster * std::cos(angle));
+  }
+}
+
+RegressionRows TorsionRegression::linearise(std::size_t r, const Eigen::VectorXd& c) const {
+  const FoldedRecord& one = records_[r];
+  const auto n = static_cast<Eigen::Index>(one.time.size());
+  RegressionRows rows{Eigen::MatrixXd::Zero(n, at_.size), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Point p = point(one, k, c);
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(at_.size);
+    row[at_.offset] = 1.0;
+    row.segment(at_.f, p.f.size()) = p.f;
+    row.segment(at_.g, p.g.size()) = p.g;
+    row[at_.jump] = p.speed > 0.0 ? 1.0 : -1.0;
+    if (at_.h >= 0) row.segment(at_.h, p.h.size()) = -p.damping * p.speed * p.h;
+    row[at_.inertia] = one.acceleration[k] / largest_acceleration_;
+    row[at_.delay] =
+        -time_scale_ * (p.along_motion * one.velocity[k] + p.along_speed * one.acceleration[k]);
+    fill_motion(one, k, p, row.segment(motion_[r], errors_of(one)));
+    rows.jacobian.row(i) = row;
+    rows.target[i] = one.torque[k] - p.damping * p.speed * p.log_h;
+    rows.along_motion[i] = p.along_motion;
+  }
+  return rows;
+}
+
+}  // namespace flexspline::estimators

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "posterior/folded_record.hpp"
+#include "posterior/rich_spline.hpp"
+
+namespace flexspline::estimators {
+
+struct RichLaws {
+  RichSpline f, g_inverse, log_h;
+};
+
+/// Columns of the regression: offset (Nm), coefficients of f and g^-1 (Nm), the jump of g^-1 at
+/// zero (Nm), coefficients of ln h, inertia and delay in units in which their columns are torques,
+/// and the errors of the reconstructed motion in their standard deviations.
+struct RegressionColumns {
+  Eigen::Index offset = 0, f = 1, g = 0, jump = 0;
+  Eigen::Index h = -1;  ///< < 0: h = 1
+  Eigen::Index inertia = 0, delay = 0, motion = 0, size = 0;
+};
+
+RegressionColumns regression_columns(const RichLaws& laws, const std::vector<FoldedRecord>& records,
+                                     bool with_h);
+
+/// Eq. (4) at the rows of a record: J, what J c stands for, Nm, and d tau/d phi, Nm/rad.
+struct RegressionRows {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd target;
+  Eigen::VectorXd along_motion;
+};
+
+/// tau = o + f(phi) + g^-1(phi'/h(phi)) + J phi'' - d d tau/dt + e of all records, linearised in ln
+/// h and in the motion at coefficients c; the rest is linear.
+class TorsionRegression {
+ public:
+  TorsionRegression(const RichLaws& laws, const RegressionColumns& at,
+                    const std::vector<FoldedRecord>& records);
+
+  /// Of record r.
+  RegressionRows linearise(std::size_t r, const Eigen::VectorXd& c) const;
+
+ private:
+  struct Point;
+  Point point(const FoldedRecord& one, std::size_t k, const Eigen::VectorXd& c) const;
+  void fill_motion(const FoldedRecord& one, std::size_t k, const Point& at,
+                   Eigen::Ref<Eigen::RowVectorXd> row) const;
+
+  const RichLaws& laws_;
+  const RegressionColumns& at_;
+  const std::vector<FoldedRecord>& records_;
+  std::vector<Eigen::Index> motion_;  // first column of every record's errors
+  // Units of inertia and delay in which their columns are torques.
+  double largest_acceleration_ = 0.0;
+  double time_scale_ = 0.0;
+};
+
+}  // namespace flexspline::estimators

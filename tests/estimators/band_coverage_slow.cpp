@@ -1,0 +1,31 @@
+// A slice of flexspline_band_coverage (docs/fits.md): the 95 % bands on gears of no estimator's
+// class.
+#include <gtest/gtest.h>
+
+#include "band_coverage.hpp"
+
+namespace flexspline::estimators {
+namespace {
+
+// Two sets a family and colour of noise, of 16 and 4. The points of a set hang together, so that
+// the share of a function has a standard deviation of some 1.5 points.
+TEST(BandCoverage, OfGearsOfNoEstimatorsClass) {
+  const auto tallies = band_coverage(kGearFamilies, 2, 5001, 2,
+                                     {.words = {{"simulate", "torque"}, {"bands", "mixed_model"}}});
+  CoverageTally all;
+  for (const auto& family : tallies) {
+    for (const auto& colour : family) all.add(colour);
+  }
+  EXPECT_EQ(all.failed, 0);
+  for (const auto& [name, tally] :
+       {std::pair{"f", all.f}, {"g_inverse", all.g_inverse}, {"h", all.h}}) {
+    std::printf("%s: %.4f of %d\n", name, share(tally), tally.asked);
+    EXPECT_GE(share(tally), 0.90) << name;
+    EXPECT_LE(share(tally), 0.99) << name;
+  }
+  EXPECT_LE(all.overconfident, all.sets / 20);
+  EXPECT_GT(all.identifiable, all.sets / 4);
+}
+
+}  // namespace
+}  // namespace flexspline::estimators
