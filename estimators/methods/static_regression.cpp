@@ -18,7 +18,10 @@ Result<Estimate> fit(const FitProblem& problem) {
   const auto found = fit_static(problem.records, settings);
   if (!found) return tl::unexpected(found.error());
   auto estimate = torsion_estimate("static_regression", found->fit, *found,
-                                   {uncertainty_settings(problem, method), settings.solver});
+                                   {uncertainty_settings(problem, method),
+                                    settings.solver,
+                                    {},
+                                    word(problem, method, "bands") == "mixed_model"});
   if (!estimate) return tl::unexpected(estimate.error());
   estimate->seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
