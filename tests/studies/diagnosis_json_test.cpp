@@ -171,7 +171,7 @@ TEST(DiagnosisJson, WritesWhatWasNotComputedAsNull) {
 TEST(DiagnosisJson, HoldsTheModelToTheLastBitWhereThereIsOne) {
   Diagnosis diagnosis;
   EXPECT_TRUE(to_json(diagnosis)["model"].is_null());
-  diagnosis.model = ModelSpec{};
+  diagnosis.model = RigModel{};
   EXPECT_EQ(to_json(diagnosis)["model"], data::to_json(*diagnosis.model));
 }
 

@@ -113,15 +113,16 @@ TEST_P(DiagnosedModel, SimulatesItsPredictionFromAFile) {
   for (const std::string& note : d.diagnosis.notes) SCOPED_TRACE(note);
   ASSERT_TRUE(d.diagnosis.model);
   if (!GetParam().expected.empty()) {
-    EXPECT_TRUE(has_effect(*d.diagnosis.model, GetParam().expected)) << d.diagnosis.says;
+    EXPECT_TRUE(has_effect(d.diagnosis.model->drive.torsion, GetParam().expected))
+        << d.diagnosis.says;
   }
   ScratchFolder folder;
   const auto file = folder.path() / "model.toml";
   ASSERT_TRUE(data::write_model(file, *d.diagnosis.model));
-  const auto model = data::read_model(file);
+  const auto model = data::read_rig_model(file);
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_EQ(data::model_toml(*model), data::model_toml(*d.diagnosis.model));
-  const auto differences = apart(d, *model);
+  const auto differences = apart(d, model->drive.torsion);
   EXPECT_FALSE(differences.empty());
   for (const auto& [recording, difference] : differences) {
     EXPECT_LT(difference, GetParam().apart) << recording;
@@ -145,10 +146,11 @@ TEST(ModelOfADiagnosis, IsTakenBySimulate) {
   EXPECT_EQ(simulated->recordings.size(), d.set.recordings.size());
 }
 
-TEST(ModelOfADiagnosis, IsNoneWithoutATorqueAcrossTheTransmission) {
+TEST(ModelOfADiagnosis, IsAServosToo) {
   const Diagnosed d = diagnosed({.rig = Rig::servo});
-  EXPECT_FALSE(d.diagnosis.model);
-  EXPECT_THAT(d.diagnosis.notes, testing::Contains(testing::HasSubstr("no model.toml")));
+  ASSERT_TRUE(d.diagnosis.model);
+  EXPECT_EQ(d.diagnosis.model->rig, Rig::servo);
+  EXPECT_GT(d.diagnosis.model->drive.load_mass, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -121,10 +121,10 @@ double parameter(const ModelSpec& model, std::string_view effect, std::string_vi
 TEST(LateTorque, IsToldFromTheInertiaThatItHides) {
   const Diagnosis d = diagnosed(joint({.delay = 0.02, .filter = 0.06}));
   EXPECT_THAT(names(d), testing::UnorderedElementsAre("inertia_torque", "sensor_delay")) << d.says;
-  EXPECT_NEAR(parameter(d.model.drive.torsion, "inertia_torque", "inertia"), kInertia,
+  EXPECT_NEAR(parameter(d.model->drive.torsion, "inertia_torque", "inertia"), kInertia,
               0.03 * kInertia);
-  EXPECT_NEAR(parameter(d.model.drive.torsion, "torque_sensor_lag", "time_constant"), 0.06, 0.004);
-  EXPECT_NEAR(parameter(d.model.drive.torsion, "sensor_delay", "delay"), 0.02, 0.004);
+  EXPECT_NEAR(parameter(d.model->drive.torsion, "torque_sensor_lag", "time_constant"), 0.06, 0.004);
+  EXPECT_NEAR(parameter(d.model->drive.torsion, "sensor_delay", "delay"), 0.02, 0.004);
   EXPECT_LT(d.holdout.rmse_after, 1.5 * kNoise);
 }
 
@@ -140,8 +140,8 @@ TEST(LateTorque, IsNotToldByWhatCameBeforeTheRecording) {
 TEST(LateTorque, IsNotThatOfAnInertiaCarriedAlong) {
   const Diagnosis d = diagnosed(joint({.carried = 0.08}));
   ASSERT_EQ(names(d), std::vector<std::string>{"inertia_torque"}) << d.says;
-  EXPECT_NEAR(parameter(d.model.drive.torsion, "carried_inertia", "time_constant"), 0.08, 0.004);
-  EXPECT_NEAR(parameter(d.model.drive.torsion, "carried_inertia", "inertia"), kInertia,
+  EXPECT_NEAR(parameter(d.model->drive.torsion, "carried_inertia", "time_constant"), 0.08, 0.004);
+  EXPECT_NEAR(parameter(d.model->drive.torsion, "carried_inertia", "inertia"), kInertia,
               0.05 * kInertia);
   EXPECT_LT(d.holdout.rmse_after, 1.5 * kNoise);
 }

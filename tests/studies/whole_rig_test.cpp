@@ -48,7 +48,7 @@ TEST_P(OfADrive, ItsFilePredictsAsTheDiagnosisDid) {
   const Diagnosis d = diagnosed(set);
   ASSERT_FALSE(d.series.empty());
   const bool motor = d.series.front().equation == "motor";
-  const RigModel model = through_a_file(d.model);
+  const RigModel model = through_a_file(*d.model);
   EXPECT_EQ(model.rig, set.rig);
   EXPECT_EQ(model.drive.gear_ratio, set.constants.at("gear_ratio"));
   const double error =
