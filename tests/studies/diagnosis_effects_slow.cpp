@@ -57,10 +57,10 @@ TEST_P(EffectOfADiagnosis, HasTheParameterOfTheBench) {
   for (const std::string& note : diagnosis->notes) SCOPED_TRACE(note);
   ASSERT_TRUE(diagnosis->model);
   const double truth = true_value(made->answer, one.truth);
-  const double found = model_value(*diagnosis->model, one);
+  const double found = model_value(diagnosis->model->drive.torsion, one);
   EXPECT_NEAR(found, truth, one.share * std::abs(truth)) << diagnosis->says;
   const auto text = data::model_toml(*diagnosis->model);
-  EXPECT_TRUE(data::parse_model(text, "model.toml"));
+  EXPECT_TRUE(data::parse_rig_model(text, "model.toml"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
