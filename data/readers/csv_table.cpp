@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "flexspline/core/nearest_name.hpp"
 #include "readers/cell_text.hpp"
+#include "readers/csv_cells.hpp"
 #include "readers/csv_dialect.hpp"
 #include "readers/csv_number.hpp"
 #include "readers/line_source.hpp"
@@ -21,36 +20,6 @@ namespace {
 constexpr int kMostFindings = 20;
 constexpr std::size_t kMostColumns = 4096;
 constexpr std::size_t kMostRows = 100'000'000;
-constexpr std::string_view kBlank = " \t\r";
-constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
-
-struct Cell {
-  std::string_view text;  ///< without quotes and spaces around it
-  std::size_t column;     ///< 1-based, of its first character in the line
-};
-
-Cell trimmed(std::string_view line, std::size_t from, std::size_t to) {
-  const auto is_blank = [&](std::size_t at) { return kBlank.find(line[at]) != kBlank.npos; };
-  while (from < to && is_blank(from)) ++from;
-  while (to > from && is_blank(to - 1)) --to;
-  if (to - from >= 2 && line[from] == '"' && line[to - 1] == '"') {
-    return {trimmed(line.substr(0, to - 1), from + 1, to - 1).text, from + 1};
-  }
-  return {line.substr(from, to - from), from + 1};
-}
-
-void split(std::string_view line, char separator, std::vector<Cell>& cells) {
-  cells.clear();
-  std::size_t from = 0;
-  while (true) {
-    const std::size_t to = std::min(line.find(separator, from), line.size());
-    cells.push_back(trimmed(line, from, to));
-    if (to == line.size()) return;
-    from = to + 1;
-  }
-}
-
-bool is_blank(std::string_view line) { return line.find_first_not_of(kBlank) == line.npos; }
 
 /// Reads one file; its state is the line at hand.
 class Parser {
@@ -110,13 +79,13 @@ class Parser {
     }
     if (!is_text()) return false;
     choose_separator();
-    split(line_, separator_, cells_);
+    split_cells(line_, separator_, cells_);
     if (cells_.size() > kMostColumns) {
       refuse(1, fmt::format("{} columns, where {} are the most", cells_.size(), kMostColumns),
              "write a table with the channels alone");
       return false;
     }
-    for (const Cell& cell : cells_) add_column(cell);
+    for (const CsvCell& cell : cells_) add_column(cell);
     return find_wanted();
   }
 
@@ -146,7 +115,7 @@ class Parser {
          "numbers are read with a decimal comma or point");
   }
 
-  void add_column(const Cell& cell) {
+  void add_column(const CsvCell& cell) {
     std::string name = is_utf8(cell.text) ? std::string(cell.text) : utf8_of_latin1(cell.text);
     table_.header.push_back(std::move(name));
   }
@@ -224,8 +193,6 @@ class Parser {
     number_ = here;
   }
 
-  /// As nearly all rows are: as many cells as columns, every one that is wanted a plain number of
-  /// its range. False: look closer.
   bool read_row_fast() {
     std::string_view line = line_;
     if (separator_ == ';' && line.find(',') != line.npos) {
@@ -233,26 +200,7 @@ class Parser {
       std::ranges::replace(with_points_, ',', '.');
       line = with_points_;
     }
-    const char* at = line.data();
-    const char* const end = at + line.size();
-    const auto skip_blanks = [&] {
-      while (at != end && (*at == ' ' || *at == '\r')) ++at;
-    };
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
-      if (i > 0 && (at == end || *at++ != separator_)) return false;
-      if (slots_[i] == kNowhere) {
-        at = std::find(at, end, separator_);
-        continue;
-      }
-      skip_blanks();
-      const CsvColumn& column = wanted_[slots_[i]];
-      double& value = values_[slots_[i]];
-      const auto [stop, code] = std::from_chars(at, end, value);
-      if (code != std::errc{} || !(value >= column.low && value <= column.high)) return false;
-      at = stop;
-      skip_blanks();
-    }
-    return at == end && holds_roles();
+    return read_plain_row(line, separator_, slots_, wanted_, values_) && holds_roles();
   }
 
   /// Time that increases; flags that are 0 or 1.
@@ -269,7 +217,7 @@ class Parser {
 
   void read_row() {
     std::ranges::fill(values_, kNoNumber);
-    split(line_, separator_, cells_);
+    split_cells(line_, separator_, cells_);
     if (is_foreign()) return;
     if (cells_.size() != table_.header.size()) {
       refuse_ragged();
@@ -282,14 +230,14 @@ class Parser {
     if (increasing_ != kNowhere) check_increase(values_[increasing_]);
   }
 
-  const Cell& cell_of(std::size_t wanted) const { return cells_[place_[wanted]]; }
+  const CsvCell& cell_of(std::size_t wanted) const { return cells_[place_[wanted]]; }
 
   CsvNumber number_in(std::size_t wanted) const {
     return parse_number(cell_of(wanted).text, separator_ == ';');
   }
 
   bool is_foreign() {
-    const bool any_number = std::ranges::any_of(cells_, [&](const Cell& cell) {
+    const bool any_number = std::ranges::any_of(cells_, [&](const CsvCell& cell) {
       return parse_number(cell.text, separator_ == ';').problem.empty();
     });
     const auto foreign = foreign_row(line_, number_, any_number);
@@ -347,7 +295,7 @@ class Parser {
   }
 
   void refuse_cell(std::size_t w, const CsvNumber& number) {
-    const Cell& cell = cell_of(w);
+    const CsvCell& cell = cell_of(w);
     const auto foreign = foreign_cell(cell.text);
     stopped_ = foreign.has_value();  // it is so in every row
     refuse(
@@ -365,7 +313,7 @@ class Parser {
   std::vector<std::size_t> slots_;  ///< by column of the file: which of the wanted it is
   std::vector<std::size_t> place_;  ///< by wanted: which column of the file it is
   std::vector<double> values_;      ///< of the row at hand, by wanted
-  std::vector<Cell> cells_;
+  std::vector<CsvCell> cells_;
   std::string_view line_;
   std::string with_points_;
   int number_ = 0;

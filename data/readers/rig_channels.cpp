@@ -25,17 +25,6 @@ bool has_all(const Channels& channels, const std::vector<Quantity>& wanted) {
   return std::ranges::all_of(wanted, [&](Quantity one) { return has(channels, one); });
 }
 
-std::string words_of(const ChannelChoice& choice) {
-  std::string words;
-  for (const auto& together : choice.alternatives) {
-    words += words.empty() ? "" : choice.exactly_one ? ", " : ", or ";
-    for (std::size_t i = 0; i < together.size(); ++i) {
-      words += fmt::format("{}{}", i > 0 ? " with " : "", name_of(together[i]));
-    }
-  }
-  return words;
-}
-
 std::optional<std::string> complaint(Rig rig, const ChannelChoice& choice,
                                      const Channels& channels) {
   const auto count = std::ranges::count_if(
@@ -62,6 +51,17 @@ std::optional<std::string> velocity_complaint(const Channels& channels) {
 }
 
 }  // namespace
+
+std::string words_of(const ChannelChoice& choice) {
+  std::string words;
+  for (const auto& together : choice.alternatives) {
+    words += words.empty() ? "" : choice.exactly_one ? ", " : ", or ";
+    for (std::size_t i = 0; i < together.size(); ++i) {
+      words += fmt::format("{}{}", i > 0 ? " with " : "", name_of(together[i]));
+    }
+  }
+  return words;
+}
 
 std::span<const RigChannels> rig_channels() {
   using enum Quantity;

@@ -12,6 +12,12 @@ void thin(std::vector<double>& values, std::size_t stride) {
   values.shrink_to_fit();
 }
 
+std::string ordinal(std::size_t number) {
+  const std::size_t last = number % 100 / 10 == 1 ? 0 : number % 10;
+  const char* ending = last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
+  return fmt::format("{}{}", number, ending);
+}
+
 }  // namespace
 
 void thin_recordings(RecordingSet& set, std::size_t most) {
@@ -23,9 +29,8 @@ void thin_recordings(RecordingSet& set, std::size_t most) {
     thin(recording.time, stride);
     for (auto& [quantity, values] : recording.channels) thin(values, stride);
     set.notes.push_back(
-        fmt::format("recording {}: every {}th of {} rows is used; --rows all uses "
-                    "them all",
-                    recording.id, stride, rows));
+        fmt::format("recording {}: every {} of {} rows is used; --rows all uses them all",
+                    recording.id, ordinal(stride), rows));
     any = true;
   }
   if (any) set.sha256 = content_hash(set);

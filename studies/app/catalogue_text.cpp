@@ -58,6 +58,9 @@ std::string rig_words(const ordered_json& row) {
   for (const char* key : {"equations", "not_modelled", "outputs", "residuals"}) {
     text += fmt::format("\n  {:<18} {}", key, words(row.at(key)));
   }
+  const ordered_json& channels = row.at("channels");
+  text += fmt::format("\n  {:<18} {}", "recordings need", words(channels.at("needs")));
+  text += fmt::format("\n  {:<18} {}", "and may have", words(channels.at("may_have")));
   for (const ordered_json& form : row.at("forms")) text += form_words(form);
   if (!row.at("constants").empty()) text += "\n  constants";
   for (const ordered_json& one : row.at("constants")) text += said(one);

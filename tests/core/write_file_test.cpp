@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +62,11 @@ TEST_F(WriteFile, ReadingSaysWhichFileAndWhy) {
   EXPECT_EQ(absent.error().code, ErrorCode::input_missing);
   EXPECT_THAT(absent.error().problem, testing::HasSubstr("absent.csv: No such file"));
   fs::create_directories(folder_);
-  EXPECT_FALSE(read_file(folder_).has_value());
+  EXPECT_THAT(read_file(folder_).error().problem, testing::HasSubstr("it is a folder"));
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(read_file(folder_ / "pipe").error().problem,
+              testing::HasSubstr("it is no regular file"))
+      << "it would wait for somebody to write";
 }
 
 }  // namespace

@@ -229,6 +229,12 @@ TEST_F(DatasetBoundary, RefusesTablesBeyondItsLimits) {
   EXPECT_THAT(error_of(read(kDescription, "t,theta,tau\n")), HasSubstr("a.csv: 0 samples"));
 }
 
+TEST_F(DatasetBoundary, TakesACellOfManyQuotesAsText) {
+  const std::string quotes(500000, '"');
+  EXPECT_THAT(error_of(read(kDescription, with(sound_table(), "1.0,4,", "1.0," + quotes + ","))),
+              HasSubstr("a.csv:4:5: column 'theta': '\"\"\"\""));
+}
+
 TEST_F(DatasetBoundary, ReadsLinesThatStraddleItsBlocks) {
   const std::string digits(1000, '3');
   const auto table = table_of(

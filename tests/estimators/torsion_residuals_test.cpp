@@ -190,6 +190,21 @@ TEST(InnovationFilter, MakesThemWhiteAndOfUnitVariance) {
   }
 }
 
+TEST(InnovationFilter, IsNotReachedByARecordWithoutValidSamples) {
+  auto record = measured(smooth_gear(), {.cycles = 2, .per_cycle = 200});
+  record.id = "spoilt";
+  record.valid.assign(record.time.size(), false);
+  const auto prepared = prepare({record}, 100000);
+  ASSERT_FALSE(prepared.has_value());
+  EXPECT_EQ(prepared.error().code, ErrorCode::numerics);
+  EXPECT_NE(prepared.error().problem.find("recording spoilt: no sample"), std::string::npos);
+  PreparedRecord bare = driven_by_noise(1).record;
+  bare.rows.clear();
+  bare.effort_sigma.clear();
+  const std::vector<double> nothing(bare.record.time.size(), 0.0);
+  InnovationFilter(bare, nothing, nothing).whiten({}, {}, 0);  // no crash
+}
+
 TEST(InnovationFilter, TreatsJacobiansAsResiduals) {
   auto d = driven_by_noise(4);
   std::vector<double> jacobian;

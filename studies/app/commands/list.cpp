@@ -13,6 +13,7 @@
 #include "flexspline/core/rig.hpp"
 #include "flexspline/data/bench.hpp"
 #include "flexspline/data/exporter.hpp"
+#include "flexspline/data/rig_channels.hpp"
 #include "flexspline/estimators/method.hpp"
 #include "flexspline/studies/kind.hpp"
 #include "flexspline/studies/metric.hpp"
@@ -36,6 +37,18 @@ ordered_json list_laws() {
         {{"id", row.id}, {"says", row.equation}, {"range", row.range}, {"source", row.source}});
   }
   return list;
+}
+
+/// What a data set of a rig has to have and may have.
+ordered_json channels_of(Rig rig) {
+  const data::RigChannels& channels = data::rig_channels(rig);
+  ordered_json needs = ordered_json::array({name_of(Quantity::time)});
+  for (const data::ChannelChoice& choice : channels.needs) {
+    needs.push_back((choice.alternatives.size() > 1 ? "one of " : "") + data::words_of(choice));
+  }
+  ordered_json may_have = ordered_json::array();
+  for (const Quantity one : channels.may_have) may_have.push_back(name_of(one));
+  return {{"needs", needs}, {"may_have", may_have}};
 }
 
 ordered_json list_rigs() {
@@ -65,7 +78,8 @@ ordered_json list_rigs() {
                     {"forms", forms},
                     {"constants", constants},
                     {"outputs", outputs},
-                    {"residuals", row.residuals}});
+                    {"residuals", row.residuals},
+                    {"channels", channels_of(row.rig)}});
   }
   return list;
 }

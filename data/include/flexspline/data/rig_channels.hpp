@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "flexspline/core/recording.hpp"
@@ -20,6 +21,9 @@ struct RigChannels {
   std::vector<Quantity> may_have;
   std::vector<Quantity> vary;  ///< without whose variation its equations say nothing
 };
+
+/// "motor_angle"; "torsion, angle, displacement"; "current, or duty_cycle with supply_voltage".
+std::string words_of(const ChannelChoice& choice);
 
 std::span<const RigChannels> rig_channels();
 const RigChannels& rig_channels(Rig rig);
