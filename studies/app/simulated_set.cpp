@@ -45,6 +45,8 @@ double rate_at(const std::vector<double>& time, const std::vector<double>& motio
   return (motion[to] - motion[from]) / (time[to] - time[from]);
 }
 
+constexpr double kFar = 1.1;  // of a range
+
 /// How much of the model's ranges is used, over all samples.
 struct Reach {
   double of_f = 0.0;
@@ -66,20 +68,23 @@ void add(const ModelDomain& domain, const TorsionRecord& recording, Reach& reach
 
 }  // namespace
 
-Result<std::string> extrapolation(const ModelSpec& model, const RecordingSet& simulated) {
-  if (simulated.rig == Rig::servo) return std::string();  // nothing of it shows the torsion
+Result<Extrapolation> extrapolation(const ModelSpec& model, const RecordingSet& simulated) {
+  if (simulated.rig == Rig::servo) return Extrapolation();  // nothing of it shows the torsion
   const auto domain = ModelDomain::of(model);
   if (!domain) return tl::unexpected(domain.error());
   const auto records = torsion_records(simulated);
   if (!records) return tl::unexpected(records.error());
   Reach reach;
   for (const TorsionRecord& record : *records) add(*domain, record, reach);
-  if (100 * reach.outside <= reach.samples) return std::string();
-  return fmt::format(
+  if (100 * reach.outside <= reach.samples) return Extrapolation();
+  Extrapolation result;
+  result.far = std::max(reach.of_f, reach.of_g_inverse) > kFar;
+  result.says = fmt::format(
       "extrapolated: the motion goes to {:.3g} times the range of f and the rate to {:.3g} times "
       "the range of g^-1 that recordings support; {:.0f} % of the samples lie outside",
       reach.of_f, reach.of_g_inverse,
       100.0 * static_cast<double>(reach.outside) / static_cast<double>(reach.samples));
+  return result;
 }
 
 Excitation sine_excitation(double amplitude, double frequency_hz, long cycles, long samples,

@@ -30,9 +30,14 @@ Excitation sine_excitation(double amplitude, double frequency_hz, long cycles, l
 /// The excitations of a data set, smoothed.
 Result<std::vector<Excitation>> excitations_like(const RecordingSet& set);
 
-/// Where simulated recordings leave the model's domain of validity, in a sentence; empty: nowhere,
-/// but for 1 % of their samples. Errors: a law that cannot be made.
-Result<std::string> extrapolation(const ModelSpec& model, const RecordingSet& simulated);
+/// Where simulated recordings leave the model's domain of validity.
+struct Extrapolation {
+  std::string says;  ///< in a sentence; empty: nowhere, but for 1 % of the samples
+  bool far = false;  ///< by more than a tenth of a range
+};
+
+/// Errors: a law that cannot be made.
+Result<Extrapolation> extrapolation(const ModelSpec& model, const RecordingSet& simulated);
 
 /// Simulates eq. (4), or eq. (3) from the excitation's first motion, into a specimen's data set.
 /// Errors: what the simulation refuses, with the recording's id.

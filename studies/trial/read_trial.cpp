@@ -41,7 +41,7 @@ void read_generators(TomlSection& root, TrialConfig& trial) {
     const GeneratorRow* row = find_generator(id);
     if (row == nullptr) {
       root.refuse("generators", fmt::format("unknown generator '{}'", id), suggestion(id, known));
-    } else if (std::ranges::none_of(trial.rigs, [row](data::BenchKind rig) {
+    } else if (!trial.rigs.empty() && std::ranges::none_of(trial.rigs, [row](data::BenchKind rig) {
                  return std::ranges::find(row->rigs, rig) != row->rigs.end();
                })) {
       root.refuse("generators", fmt::format("generator '{}' has none of the trial's rigs", id),

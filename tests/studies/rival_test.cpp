@@ -90,6 +90,7 @@ TEST_F(Rivals, ThatAreNamedThemselvesAreNoAlternatives) {
   Accepted other;
   other.trial = s.accepted.front().rivals.front();
   s.accepted.push_back(other);
+  s.final.fit.model.causes.push_back(other.trial.cause);
   s.final.fit.model.coefficients.push_back(Eigen::VectorXd::Ones(1));
   EXPECT_THAT(spelled_causes(frame_, s, proof).front().alternatives, testing::IsEmpty());
 }

@@ -229,7 +229,8 @@ class SpoiltInputs {
         {"completion", {{"shell", "bash"}}},
         {"schema", {{"name", "study"}}},
         {"list", {{"catalogue", "effects"}}},
-        {"explain", {{"effect", "backlash"}}}};
+        {"explain", {{"effect", "backlash"}}},
+        {"export", {{"--to", "c99"}}}};
     if (const auto found = known.find(command.id); found != known.end()) {
       for (const auto& [name, value] : found->second) values[name] = value;
     }

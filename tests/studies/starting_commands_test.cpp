@@ -1,7 +1,9 @@
 #include <cmath>
+#include <numbers>
 #include <regex>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -12,24 +14,52 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A table with the columns that a template's [channels] names: time, and sines of other phases.
+double stated(const std::string& dataset, const char* key, double otherwise) {
+  std::smatch found;
+  const std::regex line(std::string(key) + " = ([0-9.]+)");
+  return std::regex_search(dataset, found, line) ? std::stod(found[1]) : otherwise;
+}
+
+/// A sine with what a template's [channels] names: angles on both sides of the gear, and torques
+/// that lead them; the free drive's motor turns both inertias.
+double value_of(const std::string& quantity, double amplitude, double omega, double t) {
+  const double angle = amplitude * std::sin(omega * t);
+  const double speed = amplitude * omega * std::cos(omega * t);
+  constexpr double kRatio = 50.0;
+  if (quantity == "time") return t;
+  if (quantity == "motor_angle") return kRatio * angle;
+  if (quantity == "motor_torque") {
+    const double degree = std::numbers::pi / 180.0;
+    return kRatio * degree *
+           ((0.726e-3 + 2.9 / kRatio / kRatio) * -omega * omega * angle + 0.01 * speed);
+  }
+  if (quantity.ends_with("torque") || quantity == "current") return 10.0 * angle + speed / omega;
+  return angle;
+}
+
+/// A table with the columns that a template names, two periods of its stated sine.
 std::string table_for(const std::string& dataset) {
   static const std::regex channel("^(\\w+) = \\{ quantity = \"(\\w+)\"");
   std::vector<std::string> columns;
+  std::vector<std::string> quantities;
   std::istringstream lines(dataset);
   for (std::string line; std::getline(lines, line);) {
     std::smatch found;
-    if (std::regex_search(line, found, channel)) columns.push_back(found[1]);
+    if (!std::regex_search(line, found, channel)) continue;
+    columns.push_back(found[1]);
+    quantities.push_back(found[2]);
   }
-  std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
-  text += '\n';
+  const double amplitude = stated(dataset, "amplitude_deg", 1.0);
+  const double frequency = stated(dataset, "frequency_hz", 0.1);
+  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
   for (int i = 0; i < 400; ++i) {
-    text += fmt::format("{}", 0.5 * i);
-    for (std::size_t c = 1; c < columns.size(); ++c) {
-      text += fmt::format(",{:.9g}", std::sin(0.0157 * i + 0.1 * static_cast<double>(c)));
+    std::vector<std::string> cells;
+    for (const std::string& quantity : quantities) {
+      cells.push_back(
+          fmt::format("{:.9g}", value_of(quantity, amplitude, 2.0 * std::numbers::pi * frequency,
+                                         i / (200.0 * frequency))));
     }
-    text += '\n';
+    text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
 }

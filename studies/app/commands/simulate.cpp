@@ -92,12 +92,12 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!set) return tl::unexpected(set.error());
   const auto beyond = extrapolation(model->drive.torsion, *set);
   if (!beyond) return tl::unexpected(beyond.error());
-  if (!beyond->empty() && !arguments.has("extrapolate")) {
-    return failure(ErrorCode::bad_data, *beyond,
+  if (beyond->far && !arguments.has("extrapolate")) {
+    return failure(ErrorCode::bad_data, beyond->says,
                    "stay within the ranges (valid_to in the model file), or add --extrapolate");
   }
-  if (!beyond->empty()) console.say(*beyond);
-  set->note = *beyond;
+  if (!beyond->says.empty()) console.say(beyond->says);
+  set->note = beyond->says;
   const std::string folder = arguments.text("out");
   auto output = claim_for(arguments);
   if (!output) return tl::unexpected(output.error());
