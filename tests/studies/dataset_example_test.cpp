@@ -71,10 +71,11 @@ TEST_F(DatasetExample, IsUnderstoodByValidate) {
     const json& excitation = said.at("excitation");
     const json& stated = excitation.at("stated");
     const json& measured = excitation.at("measured");
-    for (const char* key : {"amplitude", "frequency_hz"}) {
-      EXPECT_NEAR(measured.at(key).get<double>() / stated.at(key).get<double>(), 1.0, 0.02)
-          << recording.id << " " << key;
-    }
+    const auto share = [&](const char* key) {
+      return measured.at(key).get<double>() / stated.at(key).get<double>();
+    };
+    EXPECT_NEAR(share("frequency_hz"), 1.0, 0.02) << recording.id;
+    EXPECT_NEAR(share("amplitude"), 1.0, 0.1) << recording.id << ", with its run-up from rest";
   }
   const Finished words = call("validate " + kExample);
   for (const char* part :

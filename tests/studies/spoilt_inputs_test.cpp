@@ -10,10 +10,10 @@ TEST(SpoiltInputs, ASliceOfAllTriesKeepsThePromises) {
   SpoiltInputs inputs;
   if (testing::Test::HasFatalFailure()) return;
   const auto crossed = inputs.crossed();
-  for (std::size_t i = 7; i < crossed.size(); i += crossed.size() / 12) inputs.attempt(crossed[i]);
+  for (std::size_t i = 7; i < crossed.size(); i += crossed.size() / 6) inputs.attempt(crossed[i]);
   const auto options = inputs.with_options();
-  for (std::size_t i = 3; i < options.size(); i += options.size() / 12) inputs.attempt(options[i]);
-  for (std::uint64_t i = 0; i < 12; ++i) inputs.attempt(inputs.spoilt_call(kSeed + i));
+  for (std::size_t i = 3; i < options.size(); i += options.size() / 6) inputs.attempt(options[i]);
+  for (std::uint64_t i = 0; i < 6; ++i) inputs.attempt(inputs.spoilt_call(kSeed + i));
   inputs.print_counts();
 }
 
