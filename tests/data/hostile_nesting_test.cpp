@@ -60,7 +60,7 @@ TEST_F(DeepFile, IsRefusedAsAnArtefact) {
 }
 
 TEST_F(DeepFile, IsRefusedAsAModel) {
-  const auto model = parse_model("a" + repeated(".a", 50000) + " = 1\n", "m.toml");
+  const auto model = parse_model(repeated("a.", 50000) + "a = 1\n", "m.toml");
   ASSERT_FALSE(model.has_value());
   EXPECT_THAT(model.error().problem, HasSubstr("m.toml: line 1 nests deeper than 64 levels"));
 }
