@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <span>
 #include <sstream>
 
@@ -167,6 +168,11 @@ int main(int argc, char** argv) {
   flexspline::app::catch_stop_signals();
   try {
     return flexspline::app::parse_and_run(argc, argv);
+  } catch (const std::filesystem::filesystem_error& error) {
+    // A path that no file system can have, or one that went away.
+    flexspline::app::Console().error(fmt::format("cannot use '{:.200}': {}; check the path",
+                                                 error.path1().string(), error.code().message()));
+    return static_cast<int>(flexspline::ErrorCode::input_missing);
   } catch (const std::exception& error) {
     flexspline::app::Console().error(fmt::format("a defect of ours: {}", error.what()));
     return static_cast<int>(flexspline::ErrorCode::defect);

@@ -81,6 +81,15 @@ TEST_F(CommandLine, MissingInputExitsWith66) {
       66);
 }
 
+TEST_F(CommandLine, PathThatNoFileSystemHasExitsWith66AndIsNamed) {
+  folder_.write("study.toml", kStudy);
+  ASSERT_EQ(call("run " + path("study.toml") + " --out " + path("out")).code, 0);
+  const Finished done = call("verify " + path("out") + " --out " + path("again") + " --against " +
+                             std::string(5000, 'y'));
+  EXPECT_EQ(done.code, 66);
+  EXPECT_THAT(done.output, HasSubstr("yyyy': File name too long"));
+}
+
 TEST_F(CommandLine, FolderThatCannotBeWrittenExitsWith73AndIsNamed) {
   folder_.write("study.toml", kStudy);
   folder_.write("file", "");
