@@ -4,10 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace flexspline {
 namespace {
@@ -72,25 +74,63 @@ std::shared_timed_mutex& writes_under_way() {
   return mutex;
 }
 
+/// What a signal handler may read: the names of the unfinished files, more than threads write at
+/// once. A file that finds no slot is written all the same.
+std::array<std::atomic<const char*>, 256> unfinished;
+static_assert(std::atomic<const char*>::is_always_lock_free, "read in a signal handler");
+
+int slot_for(const char* name) {
+  for (std::size_t i = 0; i < unfinished.size(); ++i) {
+    const char* none = nullptr;
+    if (unfinished[i].compare_exchange_strong(none, name)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
 }  // namespace
+
+bool file_exists(const std::filesystem::path& path) {
+  std::error_code unreadable;
+  return std::filesystem::exists(path, unreadable);
+}
 
 std::shared_lock<std::shared_timed_mutex> writing() { return std::shared_lock(writes_under_way()); }
 
+UnfinishedFile::UnfinishedFile(std::filesystem::path final_path)
+    : writing_(writes_under_way()),
+      final_path_(std::move(final_path)),
+      temporary_(temporary_beside(final_path_)),
+      slot_(slot_for(temporary_.c_str())) {}
+
+UnfinishedFile::~UnfinishedFile() {
+  ::unlink(temporary_.c_str());
+  if (slot_ >= 0) unfinished[static_cast<std::size_t>(slot_)] = nullptr;
+}
+
+std::error_code UnfinishedFile::finish() {
+  if (::rename(temporary_.c_str(), final_path_.c_str()) == 0) return {};
+  return {errno, std::generic_category()};
+}
+
+void remove_unfinished_files() {
+  for (const auto& name : unfinished) {
+    if (const char* path = name) ::unlink(path);
+  }
+}
+
 void let_no_write_begin(std::chrono::milliseconds patience) {
   static_cast<void>(writes_under_way().try_lock_for(patience));
+  remove_unfinished_files();
 }
 
 Result<void> write_file(const std::filesystem::path& path, std::string_view content) {
-  const auto whole = writing();
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) return not_written(path, error.message());
-  const std::filesystem::path temporary = temporary_beside(path);
-  int code = create_whole(temporary, content);
-  if (code == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
-  if (code == 0) return {};
-  ::unlink(temporary.c_str());
-  return not_written(path, reason(code));
+  UnfinishedFile file(path);
+  if (const int code = create_whole(file.path(), content)) return not_written(path, reason(code));
+  if (error = file.finish(); error) return not_written(path, error.message());
+  return {};
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {

@@ -81,8 +81,7 @@ void name_missing(const fs::path& folder, const std::vector<std::string>& keys,
                   std::vector<std::string>& unreadable) {
   for (const std::string& key : keys) {
     const fs::path file = fs::path("cases") / (key + ".json");
-    std::error_code error;
-    if (!fs::exists(folder / file, error)) {
+    if (!file_exists(folder / file)) {
       unreadable.push_back(file.generic_string() + ": it is missing");
     }
   }
@@ -122,7 +121,7 @@ Result<Artefacts> read_artefacts(const fs::path& folder) {
   keep_first_of_each_id(artefacts.inputs);
   artefacts.cases =
       read_all(json_files(folder / "cases"), "flexspline-case/1", parse_case, unreadable);
-  if (const fs::path path = folder / "paper.json"; fs::exists(path)) {
+  if (const fs::path path = folder / "paper.json"; file_exists(path)) {
     artefacts.paper = read_one(path, "flexspline-paper/1", parse_paper, unreadable);
   }
   if (auto lock = read_file(folder / "study.lock.toml")) artefacts.lock = std::move(*lock);

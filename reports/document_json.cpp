@@ -142,11 +142,7 @@ std::string figures_json(const Document& document) {
       }
     }
   }
-  std::string text = dump(figures);
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
+  return dump(figures);
 }
 
 }  // namespace flexspline::reports

@@ -16,7 +16,7 @@ struct Document {
 /// The machine-readable twin, schema flexspline-report/1, with its checksum last.
 std::string report_json(const Document& document);
 
-/// The figures alone, by id, as the page carries them: no `<` that could end a script.
+/// The figures alone, by id, as the page unpacks them.
 std::string figures_json(const Document& document);
 
 }  // namespace flexspline::reports

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "packed.hpp"
+
 namespace flexspline::reports {
 namespace {
 
@@ -172,8 +174,9 @@ std::string page_of(const Document& document) {
             blocks_html(section.blocks) + "</section>\n";
     if (&section == &document.sections.front()) html += links_html(document.sections);
   }
-  html += "</main>\n<script type=\"application/json\" id=\"figures\">" + figures_json(document) +
-          "</script>\n<script>" + page_script() + "</script>\n</body>\n</html>\n";
+  html += "</main>\n<script type=\"application/gzip\" id=\"figures\">" +
+          packed(figures_json(document)) + "</script>\n<script>" + page_script() +
+          "</script>\n</body>\n</html>\n";
   return html;
 }
 

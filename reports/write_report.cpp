@@ -88,9 +88,9 @@ Result<Composed> of_study(const fs::path& folder) {
 }
 
 Result<Composed> of_folder(const fs::path& folder) {
-  if (fs::exists(folder / "diagnosis.json")) return of_diagnosis(folder);
-  if (fs::exists(folder / "trial.json")) return of_trial(folder);
-  if (fs::exists(folder / "verification.json")) return of_verification(folder);
+  if (file_exists(folder / "diagnosis.json")) return of_diagnosis(folder);
+  if (file_exists(folder / "trial.json")) return of_trial(folder);
+  if (file_exists(folder / "verification.json")) return of_verification(folder);
   return of_study(folder);
 }
 

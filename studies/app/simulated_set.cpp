@@ -76,8 +76,13 @@ Result<Extrapolation> extrapolation(const ModelSpec& model, const RecordingSet& 
   if (!records) return tl::unexpected(records.error());
   Reach reach;
   for (const TorsionRecord& record : *records) add(*domain, record, reach);
-  if (100 * reach.outside <= reach.samples) return Extrapolation();
   Extrapolation result;
+  if (!domain->is_known()) {
+    result.says =
+        "the model does not say how far recordings support it (valid_to of f or g^-1 is missing): "
+        "whether this is extrapolated cannot be told";
+  }
+  if (100 * reach.outside <= reach.samples) return result;
   result.far = std::max(reach.of_f, reach.of_g_inverse) > kFar;
   result.says = fmt::format(
       "extrapolated: the motion goes to {:.3g} times the range of f and the rate to {:.3g} times "

@@ -27,7 +27,10 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 sem_t asked;
 
 void on_signal(int) {
-  if (requested.exchange(true)) _exit(kInterrupted);
+  if (requested.exchange(true)) {
+    remove_unfinished_files();
+    _exit(kInterrupted);
+  }
   sem_post(&asked);
 }
 

@@ -35,7 +35,7 @@ Grid grid_from(const json& from) {
 }
 
 fs::path found(const std::string& dataset, const fs::path& data_root) {
-  if (dataset.empty() || fs::exists(dataset) || data_root.empty()) return dataset;
+  if (dataset.empty() || file_exists(dataset) || data_root.empty()) return dataset;
   return data_root / dataset;
 }
 

@@ -50,7 +50,8 @@ void check_schema(TomlSection& root, std::string_view schema) {
 Error as_error(const std::vector<data::Finding>& findings) {
   std::string text;
   for (const data::Finding& finding : findings) {
-    text += (text.empty() ? "" : "\n") + finding.message();
+    if (!text.empty()) text += '\n';
+    text += finding.message();
   }
   return {ErrorCode::bad_data, std::move(text), {}, {}};
 }

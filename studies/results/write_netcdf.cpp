@@ -122,16 +122,11 @@ Result<void> write_results(const StudyPlan& plan, std::span<const std::optional<
                            const std::map<std::string, std::string>& versions,
                            const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "results.nc";
-  const std::filesystem::path half = folder / ".results.nc.part";
-  const auto whole = writing();
-  std::error_code error;
-  std::filesystem::remove(half, error);  // netCDF would write through a link
+  UnfinishedFile file(path);
   const std::string problem =
-      write_table(gather_results(plan, rows), provenance(plan, versions), half);
-  if (problem.empty()) std::filesystem::rename(half, path, error);
+      write_table(gather_results(plan, rows), provenance(plan, versions), file.path());
+  const std::error_code error = problem.empty() ? file.finish() : std::error_code{};
   if (problem.empty() && !error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(half, ignored);
   return failure(ErrorCode::cannot_write,
                  fmt::format("{} cannot be written: {}", path.string(),
                              problem.empty() ? error.message() : problem),

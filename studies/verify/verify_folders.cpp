@@ -24,7 +24,7 @@ using nlohmann::ordered_json;
 std::set<std::string> artefacts_in(const fs::path& folder) {
   std::set<std::string> names;
   for (const char* name : {"paper.json", "diagnosis.json", "trial.json"}) {
-    if (fs::exists(folder / name)) names.insert(name);
+    if (file_exists(folder / name)) names.insert(name);
   }
   std::error_code ignored;
   for (const char* part : {"inputs", "cases"}) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "flexspline/core/write_file.hpp"
@@ -54,6 +55,31 @@ TEST_F(WriteFile, FailsOverAFolderAndLeavesNothing) {
   ASSERT_FALSE(over.has_value());
   EXPECT_EQ(over.error().code, ErrorCode::cannot_write);
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WriteFile, AnUnfinishedFileIsRemovedByWhoeverEnds) {
+  fs::create_directories(folder_);
+  {
+    UnfinishedFile file(folder_ / "a");
+    std::ofstream(file.path()) << "half";
+    EXPECT_EQ(files(), 1);
+    remove_unfinished_files();
+    EXPECT_EQ(files(), 0);
+    std::ofstream(file.path()) << "half";
+  }
+  EXPECT_EQ(files(), 0);
+  UnfinishedFile file(folder_ / "a");
+  std::ofstream(file.path()) << "whole";
+  EXPECT_FALSE(file.finish());
+  remove_unfinished_files();
+  EXPECT_EQ(read_file(folder_ / "a").value(), "whole");
+}
+
+TEST_F(WriteFile, FindsNothingWhereItCannotLook) {
+  fs::create_directories(folder_);
+  EXPECT_TRUE(file_exists(folder_));
+  EXPECT_FALSE(file_exists(folder_ / "absent"));
+  EXPECT_FALSE(file_exists(folder_ / std::string(5000, 'x')));
 }
 
 TEST_F(WriteFile, ReadingSaysWhichFileAndWhy) {

@@ -79,6 +79,12 @@ function derive(figure: Figure, all: Record<string, Figure>): void {
   }));
 }
 
+/** What the page carries: JSON behind gzip and base64. */
+export async function unpack(text: string): Promise<string> {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
+}
+
 export function readFigures(text: string): Record<string, Figure> {
   const all: Record<string, Figure> = JSON.parse(text);
   Object.values(all).forEach(shareX);

@@ -5,7 +5,7 @@ import type { Chart } from "./charts";
 import { applySelection, drawChart, extentOf } from "./charts";
 import { addCopyButtons } from "./copy";
 import type { Figure, Frame, Panel } from "./document";
-import { readFigures } from "./document";
+import { readFigures, unpack } from "./document";
 import { addDownloads } from "./download";
 import { scaleStrip } from "./heatmap";
 import { listenToKeys } from "./keyboard";
@@ -98,8 +98,20 @@ class DrawnFigure {
   }
 }
 
-export function startPage(): void {
-  const figures = readFigures(document.getElementById("figures")?.textContent ?? "{}");
+/** A browser that cannot unpack them (before 2023) says where the figures are. */
+async function carriedFigures(): Promise<Record<string, Figure>> {
+  try {
+    return readFigures(await unpack(document.getElementById("figures")?.textContent ?? ""));
+  } catch (error) {
+    document.querySelectorAll(".panels").forEach((one) =>
+      (one.textContent = `This browser cannot draw the figures (${error}); they lie beside this page as figures/*.svg.`));
+    return {};
+  }
+}
+
+export async function startPage(): Promise<void> {
+  addCopyButtons();
+  const figures = await carriedFigures();
   const drawn: DrawnFigure[] = [];
   const selectionChanged = () => drawn.forEach((one) => one.applySelection());
   const waiting = new Map<Element, DrawnFigure>();
@@ -120,7 +132,6 @@ export function startPage(): void {
     waiting.set(element, one);
     observer.observe(element);
   }
-  addCopyButtons();
   onThemeChange(() => drawn.forEach((one) => one.redraw()));
   const print = (on: boolean) => {
     setPrinting(on);

@@ -77,7 +77,8 @@ Result<OutputFolder> claim_for(const Arguments& arguments) {
 
 std::vector<std::string> tables_in(const std::filesystem::path& folder) {
   std::vector<std::string> names = {"dataset.toml"};
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
     if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());
   }
   return names;

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "diagnosis_artefact.hpp"
+#include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/data/dataset.hpp"
@@ -118,8 +119,8 @@ Again run_again(const Arguments& arguments, const fs::path& again, Console& cons
   std::error_code ignored;
   fs::remove_all(again, ignored);
   const studies::RunSettings settings = settings_of(again, *jobs, console);
-  if (fs::exists(folder / "diagnosis.json")) return diagnose_again(arguments, again);
-  if (fs::exists(folder / "trial.json")) return run_trial_again(arguments, settings);
+  if (file_exists(folder / "diagnosis.json")) return diagnose_again(arguments, again);
+  if (file_exists(folder / "trial.json")) return run_trial_again(arguments, settings);
   return run_study_again(arguments, settings, console);
 }
 

@@ -16,6 +16,9 @@ class ModelDomain {
   /// Errors: those of a law that cannot be made.
   static Result<ModelDomain> of(const ModelSpec& model);
 
+  /// Whether both laws say how far they are supported.
+  bool is_known() const { return f_to_ > 0.0 && g_to_ > 0.0; }
+
   /// Of the range of f, and of g^-1, that is used at phi in rad (m) and phi' in rad/s (m/s): at
   /// most 1 inside; 0 where the model does not say.
   double share_of_f(double phi) const;
