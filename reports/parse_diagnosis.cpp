@@ -120,7 +120,6 @@ void parse_numbers(const json& artefact, DiagnosisView& into) {
   into.noise_floor = number_in(holdout, "noise_floor_nm");
   const json& nested = member(holdout, "nested");
   into.nested = nested.is_boolean() && nested.get<bool>();
-  into.seconds = number_in(artefact, "seconds");
 }
 
 template <class Row, class Parse>

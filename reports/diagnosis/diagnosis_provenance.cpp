@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "flexspline/reports/diagnosis_view.hpp"
 #include "numbers.hpp"
 
@@ -27,9 +25,6 @@ std::optional<Section> draw(const DiagnosisView& view) {
   table.rows.push_back({"data set", view.dataset});
   table.rows.push_back({"SHA-256 of its content", view.sha256});
   table.rows.push_back({"baseline", view.baseline});
-  if (std::isfinite(view.seconds)) {
-    table.rows.push_back({"computed in", digits(view.seconds, 2) + " s"});
-  }
   for (const auto& [name, version] : view.versions) table.rows.push_back({name, version});
   section.add(std::move(table));
   return section;

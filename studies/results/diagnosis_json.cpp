@@ -222,7 +222,6 @@ Json to_json(const Diagnosis& diagnosis) {
                            [&](const DiagnosedSeries& one) { return series_json(one, diagnosis); });
   json["model"] = diagnosis.model ? data::to_json(*diagnosis.model) : Json(nullptr);
   json["notes"] = notes_json(diagnosis);
-  json["seconds"] = number(diagnosis.seconds);
   return json;
 }
 

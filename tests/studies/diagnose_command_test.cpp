@@ -59,6 +59,17 @@ TEST_F(DiagnoseCommand, ExitsWith0AndPrintsWhatTheArtefactSays) {
   EXPECT_EQ(printed.at("dataset").at("sha256").get<std::string>().size(), 64u);
 }
 
+TEST_F(DiagnoseCommand, TheSameRecordingsGiveTheSameBytes) {
+  const std::vector<std::string> files = {"diagnosis.json", "index.html", "report/report.json"};
+  ASSERT_EQ(diagnose().code, 0);
+  std::vector<std::string> first;
+  for (const std::string& file : files) first.push_back(read_text(path("out/" + file)));
+  ASSERT_EQ(diagnose().code, 0);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_TRUE(read_text(path("out/" + files[i])) == first[i]) << files[i];
+  }
+}
+
 TEST_F(DiagnoseCommand, ItsPageIsDrawnAgainFromTheArtefactAloneToTheSameBytes) {
   ASSERT_EQ(diagnose().code, 0);
   std::filesystem::create_directories(path("moved"));

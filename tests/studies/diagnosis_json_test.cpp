@@ -59,7 +59,6 @@ Diagnosis example() {
   diagnosis.notes = {"one recording has no valid sample"};
   diagnosis.mistaken = {{"check_units", "load_inertia", data::Severity::warning, "sine",
                          "torque over acceleration is 57.3 times the inertia", "check the units"}};
-  diagnosis.seconds = 3.5;
   return diagnosis;
 }
 
@@ -162,8 +161,7 @@ TEST(DiagnosisJson, WritesWhatWasNotComputedAsNull) {
        {"/baseline/noise_std_nm", "/baseline/rmse_nm/train", "/mismatch/0/interval_s/0",
         "/mismatch/0/share_of_excess", "/causes/0/probability", "/causes/0/parameters/0/value",
         "/causes/0/evidence/score_p_value", "/confusable/0/similarity", "/tried/0/delta_bic",
-        "/moved/0/after", "/holdout/ratio", "/holdout/ci95/1", "/series/0/measured/0",
-        "/seconds"}) {
+        "/moved/0/after", "/holdout/ratio", "/holdout/ci95/1", "/series/0/measured/0"}) {
     EXPECT_TRUE(json.at(ordered_json::json_pointer(pointer)).is_null()) << pointer;
   }
 }

@@ -97,7 +97,6 @@ struct DiagnosisView {
   std::vector<ShownSeries> series;
   std::vector<std::string> notes;
   std::map<std::string, std::string> versions;  ///< of program and libraries
-  double seconds = kAbsent;
   bool has_model = false;  ///< that simulate and fit take
 
   bool adequate() const { return verdict == "adequate"; }
