@@ -182,6 +182,10 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   parse_list(artefact, "moved", parse_move, view.moved);
   view.next = parse_experiment(member(artefact, "next_experiment"));
   parse_list(artefact, "series", parse_series, view.series);
+  // A joint whose transmission is rigid is compared over its own angle.
+  const bool has_torsion = std::ranges::any_of(
+      view.series, [](const ShownSeries& one) { return one.equation == "torsion"; });
+  if (!view.series.empty() && !has_torsion) view.units.angle = "joint angle";
   view.has_model = !member(artefact, "model").empty();
   for (const json& note : member(artefact, "notes")) {
     view.notes.push_back(note.is_string() ? note.get<std::string>() : text_in(note, "says"));

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPage = "report/index.html";
-constexpr const char* kGeneralTitle = "Harmonic drive hysteresis: what the fits are worth";
+constexpr const char* kGeneralTitle = "Harmonic drive hysteresis: how good the fits are";
 
 /// Two inputs may differ in letters that a file name cannot hold.
 void make_table_ids_unique(std::vector<Section>& sections) {

@@ -24,7 +24,7 @@ EffectRow describe_direction_asymmetry() {
           "beside a symmetric friction with tc >= |dtc| and B >= |dB|, with which the sum is "
           "passive; within 2 % beyond 2.7 we, |w| short by at most we",
       .not_modelled =
-          "separation from an offset of the motor torque, its twin while moving; a "
+          "separation from an offset of the motor torque, confounded with it while moving; a "
           "Stribeck peak of one direction",
       .source = "Compliant Joint Toolbox (separate parameters a direction)",
       .parameters = {{"coulomb_difference", "Nm", -1e6, 1e6, 6e-3,

@@ -20,7 +20,7 @@ EffectRow describe_motor_torque_offset() {
                 .range = "an offset that does not change over the recordings",
                 .not_modelled =
                     "separation from a friction that differs between the directions, its "
-                    "twin while moving",
+                    "confounded with it while moving",
                 .source = "current sensors: 0.1 to 0.3 % of range",
                 .parameters = {{"offset", "Nm", -1e6, 1e6, 5e-3, "1 to 10 mNm of 3.8 Nm"}},
                 .rigs = {Rig::locked, Rig::free, Rig::servo},

@@ -48,7 +48,7 @@ EffectRow describe_play_backlash() {
       .site = Site::kinematics,
       .equation = "phi_e = phi - b z/sqrt(z^2 + 1), T z = tau - s, s' = tau' unless |s| = T (play)",
       .range =
-          "any torque; the joint starts in the middle of its gap; loses energy over each cycle; "
+          "any torque; the joint starts at the centre of its gap; loses energy over each cycle; "
           "in rigs its friction grows by T z' 10 us, so that it can be integrated: motion and "
           "torque undo each other there, and differ from the play of samples by that lag",
       .not_modelled = "impacts; a friction of the joint that depends on speed",

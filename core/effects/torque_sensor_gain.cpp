@@ -17,7 +17,7 @@ EffectRow describe_torque_sensor_gain() {
                 .coordinate = "load",
                 .site = Site::torque_signal,
                 .equation = "tau_measured = (1 + e) tau",
-                .range = "any torque; without a known load a twin of torque_constant_error",
+                .range = "any torque; without a known load confounded with torque_constant_error",
                 .not_modelled = "gains that differ between the directions",
                 .source = "data sheets of torque sensors: 0.2 to 2 %",
                 .parameters = {{"error", "1", -0.95, 20.0, 0.01, "1 % of the reading"}},

@@ -134,7 +134,7 @@ class Machine {
 }  // namespace
 
 Result<void> check(const DryFrictionDrive& drive, std::span<const double> times) {
-  expects(!times.empty() && drive.effort != nullptr, "instants and an effort");
+  expects(!times.empty() && drive.effort != nullptr, "instants and a torque");
   if (!std::ranges::is_sorted(times, std::less_equal<>{})) {
     return failure(ErrorCode::bad_data, "the instants of a stick-slip simulation do not increase",
                    "sort them and drop repeated ones");

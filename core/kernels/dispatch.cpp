@@ -43,7 +43,8 @@ LaneKernel lane_kernel(InstructionSet set, LaneFormula formula, int lanes) {
   if (set == InstructionSet::avx2) found = lanes_avx2::find(formula, lanes);
 #endif
   if (set == InstructionSet::baseline) found = lanes_baseline::find(formula, lanes);
-  expects(found != nullptr, "a kernel takes 2, 4 or 8 lanes, up to what its instructions hold");
+  expects(found != nullptr,
+          "a kernel takes 2, 4 or 8 SIMD lanes, up to what its instructions hold");
   return found;
 }
 

@@ -119,7 +119,8 @@ RigRow describe_specimen() {
           .says = "anything whose force follows an imposed displacement",
           .equations =
               "phi' = h(phi) g(tau - f(phi)) (3), and displacement-driven "
-              "tau = g^-1(phi'/h(phi)) + f(phi) (4); motion in rad (m), effort in Nm (N)",
+              "tau = g^-1(phi'/h(phi)) + f(phi) (4); torsion in rad (displacement in m), torque in "
+              "Nm (force in N)",
           .not_modelled = "mass of the specimen, but for inertia_torque when displacement-driven",
           .forms = {{"force_driven",
                      "eq. (3) with the effects' memory",

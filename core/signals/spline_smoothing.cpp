@@ -143,8 +143,9 @@ bool has_finite_squares(std::span<const double> samples) {
 Result<void> check_samples(std::span<const double> time,
                            std::span<const std::span<const double>> signals) {
   if (time.size() < kFewestSamples) {
-    return failure(ErrorCode::numerics, fmt::format("{} samples", time.size()),
-                   fmt::format("{} or more are needed to tell signal from noise", kFewestSamples));
+    return failure(
+        ErrorCode::numerics, fmt::format("{} samples", time.size()),
+        fmt::format("{} or more are needed to separate signal from noise", kFewestSamples));
   }
   const bool increases = std::ranges::adjacent_find(time, std::not_fn(std::less<>())) == time.end();
   if (!increases || !std::isfinite(time.front()) || !std::isfinite(time.back())) {

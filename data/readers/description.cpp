@@ -112,7 +112,7 @@ std::string parse_name(TomlReader& reader, const toml::table& root,
                        const std::filesystem::path& folder, std::vector<Finding>& notes) {
   if (const auto name = reader.text(root, "name"); name && !name->empty()) return *name;
   if (!root.contains("name")) {
-    notes.push_back(reader.at(root.source(), "no 'name'", "the folder's name stands for it"));
+    notes.push_back(reader.at(root.source(), "no 'name'", "the folder's name is used"));
   }
   return (folder / "").lexically_normal().parent_path().filename().string();
 }

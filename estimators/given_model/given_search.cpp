@@ -111,7 +111,8 @@ void judge(const std::vector<double>& costs, int starts, GivenSearch& found) {
       static_cast<int>(std::ranges::count_if(costs, [&](double cost) { return cost <= most; }));
   const HomeRate rate = home_rate(home, starts);
   found.says = fmt::format(
-      "{} of {} starts end at the lowest cost found: {:.0f} % come home (95 %: {:.0f} to {:.0f} %)",
+      "{} of {} starts end at the lowest cost found: {:.0f} % converge to it (95 %: {:.0f} to "
+      "{:.0f} %)",
       home, starts, 100.0 * rate.rate, 100.0 * rate.lower, 100.0 * rate.upper);
   if (home > 1 || found.solution.termination != Termination::converged) return;
   found.solution.termination = Termination::no_progress;

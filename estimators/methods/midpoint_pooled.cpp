@@ -22,7 +22,7 @@ Result<Estimate> fit(const FitProblem& problem) {
   for (const auto& record : problem.records) {
     auto locus = midpoint_locus(record, speed);
     if (!locus) {
-      left_out += (left_out.empty() ? "left out: " : "; ") + locus.error().message();
+      left_out += (left_out.empty() ? "not used: " : "; ") + locus.error().message();
       continue;
     }
     loci.push_back(std::move(*locus));

@@ -69,7 +69,7 @@ void count(const MultistartSettings& settings, const std::vector<OdeFit>& fits,
   result.says = fmt::format(
       "{} of {} starts end at the best cost found, {} converge elsewhere, {} fail: from such "
       "starts "
-      "{:.0f} % come home (95 %: {:.0f} to {:.0f} %)",
+      "{:.0f} % converge to it (95 %: {:.0f} to {:.0f} %)",
       result.at_best, result.starts, result.converged - result.at_best,
       result.starts - result.converged, 100.0 * result.rate, 100.0 * result.rate_lower,
       100.0 * result.rate_upper);
@@ -101,7 +101,7 @@ Result<Multistart> fit_ode_from_many(const OdeFitProblem& problem, OdeFitMethod 
       if (last->code != ErrorCode::numerics) return tl::unexpected(*last);
     }
   }
-  if (fits.empty()) return tl::unexpected(in_context(*last, "every start"));
+  if (fits.empty()) return tl::unexpected(in_context(*last, "every initial guess"));
   Multistart result{.best = best_of(fits), .starts = made};
   result.failed = made - static_cast<int>(fits.size());
   count(multistart, fits, result);

@@ -147,7 +147,8 @@ Identifiability verdict(const OdeLayout& layout, std::span<const double> q,
   result.verdict = lost ? "not_identifiable" : worst > kWeak || imitated ? "weak" : "identifiable";
   const std::string combination = words_of(layout, flat.relative);
   if (nothing) {
-    result.says = fmt::format("the recordings do not tell the combination {} at all", combination);
+    result.says =
+        fmt::format("the combination {} is not identifiable from the recordings", combination);
   } else {
     result.says = fmt::format(
         "{} is known worst, to {:.2g} % (one standard deviation); the flattest combination, {}, "

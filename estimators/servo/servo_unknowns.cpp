@@ -113,7 +113,7 @@ Result<void> start_at(const std::map<std::string, double>& starts, ServoUnknowns
     const auto found = std::ranges::find(unknowns.parameters, name, &OdeParameter::name);
     if (found == unknowns.parameters.end()) {
       return failure(ErrorCode::bad_data,
-                     fmt::format("a start is given for {}, which is no unknown of this fit", name),
+                     fmt::format("an initial guess is given for {}, which is no unknown of this fit", name),
                      suggestion(name, names));
     }
     if (!(value >= found->lower && value <= found->upper)) {

@@ -41,7 +41,7 @@ DrivenFit fit_by_kernels(const DrivenProblem& problem, std::vector<double> p,
                                     plan.stiff(), problem.series.size()));
   }
   if (fit.integration_error > settings.tolerance) {
-    fit.notes.push_back(fmt::format("the integration is off by {:.1g} of the peak of a recording",
+    fit.notes.push_back(fmt::format("the integration error is {:.1g} of the peak of a recording",
                                     fit.integration_error));
   }
   return fit;

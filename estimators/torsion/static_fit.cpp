@@ -27,7 +27,7 @@ FreeTerms base_terms(const std::vector<PreparedRecord>& records) {
 std::string misfit_note(const Leftover& left) {
   return fmt::format(
       "eq. (4) with these laws leaves {:.3g} times the noise of the recordings: "
-      "something is left out",
+      "physics is missing from the model",
       left.residual / left.noise);
 }
 

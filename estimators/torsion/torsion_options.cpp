@@ -5,7 +5,7 @@ namespace flexspline::estimators {
 std::vector<OptionInfo> with_torsion_options(std::vector<OptionInfo> own) {
   const std::vector<OptionInfo> shared = {
       {.name = "h",
-       .meaning = "auto: fitted where the recordings can tell it; unity: h = 1",
+       .meaning = "auto: fitted where it is identifiable; unity: h = 1",
        .choices = {"auto", "unity"}},
       {.name = "inertia",
        .meaning = "an inertia torque that the sensor sees",

@@ -31,7 +31,7 @@ std::string experiment_sentence(const DiagnosisView& view) {
     text += ", amplitude " + compact(next.amplitude, 3) + " " + view.units.motion;
   }
   if (std::isfinite(next.frequency_hz)) text += ", " + compact(next.frequency_hz, 3) + " Hz";
-  if (!next.separates.empty()) text += ", would tell " + joined(next.separates);
+  if (!next.separates.empty()) text += ", would separate " + joined(next.separates);
   if (std::isfinite(next.separation_sigma)) {
     text += " by " + digits(next.separation_sigma, 2) + " standard deviations";
   }

@@ -12,19 +12,22 @@ std::string meaning_of(const std::string& verdict) {
            "out that they could show.";
   }
   if (verdict == "explained") {
-    return "Explained: something was left out, and with it the recordings are explained to within "
+    return "Explained: physics is missing from the baseline, and with it the recordings are "
+           "explained to within "
            "their noise.";
   }
   if (verdict == "partly_explained") {
-    return "Partly explained: something was left out and found, but more is left that no effect of "
+    return "Partly explained: missing physics was found, but an unexplained residual remains that "
+           "no effect of "
            "the catalogue explains.";
   }
   if (verdict == "unexplained") {
-    return "Unexplained: something was left out to which no effect of the catalogue can give a "
+    return "Unexplained: physics is missing from the baseline to which no effect of the catalogue "
+           "can give a "
            "name.";
   }
   if (verdict == "undecided") {
-    return "Undecided: these recordings cannot tell whether anything was left out, or what.";
+    return "Undecided: these recordings do not show whether physics is missing, or which.";
   }
   return "The verdict is not one of flexspline-diagnosis/1: " + verdict;
 }
@@ -45,11 +48,11 @@ std::string baseline_sentence(const DiagnosisView& view) {
 
 Table causes_table(const DiagnosisView& view) {
   Table table{"causes",
-              "What was left out, largest first. The size is the largest contribution, in percent "
-              "of the largest torque; the weight is its share of belief among the causes tried, no "
+              "Missing physics, largest first. The size is the largest contribution, in percent "
+              "of the largest torque; the weight is its model weight among the causes tried, no "
               "calibrated probability; the hold-out ratio is the misfit with it, beside all the "
               "others, over the misfit without it, cross-validated, selection not nested.",
-              {{"left out", "", 3},
+              {{"missing", "", 3},
                {"size", "", 3},
                {"unit", "", 3},
                {"of the largest torque", "%", 2},

@@ -29,7 +29,7 @@ Table mismatch_table(const DiagnosisView& view) {
       "mismatch",
       "Where the baseline and the recordings differ. The share is that of the misfit beyond "
       "noise which the coordinate puts in order.",
-      {{"ordered by", "", 3},
+      {{"depends on", "", 3},
        {"share", "%", 2},
        {"equation", "", 3},
        {"recording", "", 3},

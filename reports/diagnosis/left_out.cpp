@@ -9,7 +9,7 @@ namespace {
 constexpr double kSmallestP = 1e-12;  // beyond it nobody knows a noise's tails
 
 std::string sentence_of(const ShownCause& cause) {
-  std::string text = "Left out";
+  std::string text = "Missing";
   if (std::isfinite(cause.probability)) {
     text += ", with a weight of " + digits(cause.probability, 2) + " among the causes tried";
   }
@@ -55,7 +55,7 @@ Table evidence_table(const DiagnosisView& view) {
       "What speaks for each cause. p: that noise alone would score as high. Delta BIC: with "
       "it less without it, negative speaks for it. Hold-out ratio: misfit with it over "
       "misfit without it, cross-validated, selection not nested.",
-      {{"left out", "", 3}, {"p", "", 2}, {"delta BIC", "", 3}, {"hold-out ratio", "", 3}},
+      {{"missing", "", 3}, {"p", "", 2}, {"delta BIC", "", 3}, {"hold-out ratio", "", 3}},
       {}};
   for (const ShownCause& cause : view.causes) {
     const bool tiny = cause.p_value <= kSmallestP;
@@ -66,15 +66,16 @@ Table evidence_table(const DiagnosisView& view) {
 }
 
 std::string nothing_named(const DiagnosisView& view) {
-  if (view.verdict == "undecided") return "Nothing is named: these recordings cannot tell.";
+  if (view.verdict == "undecided")
+    return "Nothing is named: the effects are not identifiable from these recordings.";
   return view.adequate()
              ? "Nothing: the baseline is enough for these recordings."
-             : "No effect of the catalogue is named. What is left over has a place (see "
+             : "No effect of the catalogue is named. The unexplained residual has a place (see "
                "above) but no physical name.";
 }
 
 std::optional<Section> draw(const DiagnosisView& view) {
-  Section section{"left-out-section", "What was left out?", {}};
+  Section section{"left-out-section", "What physics is missing?", {}};
   if (view.causes.empty()) {
     section.add(Paragraph{nothing_named(view)});
     return section;

@@ -39,7 +39,7 @@ std::optional<Section> draw(const DiagnosisView& view) {
   section.add(Verdict{sentence_of(view)});
   Table table{"moved",
               "Baseline parameters before and after the causes were modelled. What moved far had "
-              "stood in for what was left out.",
+              "had absorbed the missing physics.",
               {{"parameter", "", 3},
                {"before", "", 4},
                {"after", "", 4},

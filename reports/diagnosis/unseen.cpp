@@ -31,7 +31,7 @@ std::string sentence_of(const DiagnosisView& view) {
 
 Table holdout_table(const DiagnosisView& view) {
   Table table{"holdout",
-              "Misfit on recordings held out, without and with what was left out, and the noise "
+              "Misfit on recordings held out, without and with the missing physics, and the noise "
               "below which no model can come.",
               {{"model", "", 3},
                {"rms on hold-out", view.rmse_unit, 3},
@@ -46,7 +46,7 @@ Table holdout_table(const DiagnosisView& view) {
   };
   add("baseline", view.before, 1.0, kAbsent, kAbsent);
   if (!view.causes.empty()) {
-    add("with what was left out", view.after, view.ratio, view.ratio_lower, view.ratio_upper);
+    add("with the missing physics", view.after, view.ratio, view.ratio_lower, view.ratio_upper);
   }
   add("noise floor", view.noise_floor, view.noise_floor / view.before, kAbsent, kAbsent);
   return without_empty_columns(std::move(table));

@@ -40,15 +40,16 @@ Figure before_after_figure(const DiagnosisView& view) {
   figure.kind = "scatter";
   figure.title = "Every recording, before and after";
   figure.caption =
-      "Root mean square of measured less modelled effort over the samples drawn above. A cause "
+      "Root mean square of measured minus modelled torque or force over the samples drawn above. A "
+      "cause "
       "that is real moves the symbols to the left on held-out recordings too, as far as the noise "
       "and no further.";
-  figure.alt = "Misfit of every recording without and with what was left out.";
+  figure.alt = "Misfit of every recording without and with the missing physics.";
   Panel panel;
-  panel.x.label = "misfit / " + view.units.effort;
+  panel.x.label = "residual rms / " + view.units.effort;
   panel.y.label = "recording";
   Series before{"baseline", "points", {"estimator", 0}, {}, {}, {}, {}};
-  Series after{"with what was left out", "points", {"estimator", 1}, {}, {}, {}, {}};
+  Series after{"with the missing physics", "points", {"estimator", 1}, {}, {}, {}, {}};
   for (const ShownSeries& one : view.series) {
     const auto row = static_cast<double>(panel.y.categories.size());
     panel.y.categories.push_back(label_of(view, one));

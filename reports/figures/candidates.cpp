@@ -36,10 +36,11 @@ Figure candidates_figure(const DiagnosisView& view) {
   figure.caption =
       view.adequate()
           ? "Change of the information criterion (BIC) by each candidate. Left of zero it would be "
-            "worth its parameters; there is none that is and that holds on recordings not seen."
+            "significant for its number of parameters; there is none that is and that holds on "
+            "recordings not seen."
           : "Share of the misfit beyond the noise that a candidate removes, by round of the "
             "search. "
-            "The best one of a round is taken up only if it also holds on recordings that it has "
+            "The best one of a round is accepted only if it also holds on recordings that it has "
             "not seen; those close to it are what it could be confused with.";
   figure.alt = "What every candidate would explain, a symbol a round.";
   Panel panel;

@@ -121,7 +121,7 @@ Figure error_map_figure(const StudyView& view) {
   Figure figure;
   figure.id = "error-maps";
   figure.kind = "heatmap";
-  figure.title = "Error of the simulated effort, in percent of that recording's peak";
+  figure.title = "Error of the simulated torque or force, in percent of that recording's peak";
   figure.caption =
       "Dark is good, bright is bad, on one logarithmic scale for all maps. T marks what the "
       "estimator was trained on; * lies outside its domain of validity. A model that has found the "

@@ -73,8 +73,8 @@ Figure error_overview_figure(const StudyView& view) {
   Frame frame;
   for (Panel& panel : std::vector<Panel>{
            function_panel(view, "f"), function_panel(view, "g_inverse"),
-           torque_panel(view, "effort, lower amplitude", Elsewhere::lower_amplitude),
-           torque_panel(view, "effort, lower frequency", Elsewhere::lower_frequency)}) {
+           torque_panel(view, "torque, lower amplitude", Elsewhere::lower_amplitude),
+           torque_panel(view, "torque, lower frequency", Elsewhere::lower_frequency)}) {
     if (!panel.series.empty()) frame.panels.push_back(std::move(panel));
   }
   share_decades(frame.panels);

@@ -65,8 +65,9 @@ void add_marks(Panel& panel, const Band& band, const std::string& estimator) {
   }
 }
 
-std::string argument_label(const std::string& function, const std::string& unit) {
-  return (function == "g_inverse" ? "rate of motion / " : "motion / ") + unit;
+std::string argument_label(const std::string& function, const ShownUnits& units,
+                           const std::string& unit) {
+  return (function == "g_inverse" ? units.rate_name() : units.motion_name()) + " / " + unit;
 }
 
 Panel function_panel(const StudyView& view, const Input& input, const std::string& function) {
@@ -83,7 +84,7 @@ Panel function_panel(const StudyView& view, const Input& input, const std::strin
     const Case* item = view.find(input, estimator);
     const Band* band = item != nullptr ? item->band(function) : nullptr;
     if (band == nullptr || band->argument.empty()) continue;
-    panel.x.label = argument_label(function, band->unit_argument);
+    panel.x.label = argument_label(function, input.units, band->unit_argument);
     panel.y.label = function_label(function) + (function == "h" ? "" : " / " + band->unit_value);
     add_estimator(panel, extent, estimator, *band);
     add_marks(panel, *band, estimator.id);

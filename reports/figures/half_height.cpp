@@ -49,7 +49,7 @@ bool has_a_line(const Panel& panel) { return !panel.series.empty(); }
 Figure half_height_figure(const StudyView& view) {
   Figure figure;
   figure.id = "half-height";
-  figure.title = "Half height of the measured loop in the middle of its motion";
+  figure.title = "Half height of the measured loop at zero torsion";
   figure.caption =
       "Viscous friction grows with amplitude and with frequency alike. A loop whose height grows "
       "with amplitude but stays flat in frequency is rate-independent: presliding, not viscosity.";

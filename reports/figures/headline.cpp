@@ -23,8 +23,8 @@ Panel panel_of(const DiagnosisView& view, const ShownSeries& series, const std::
                const std::string& name, int rank, const std::vector<double>& model) {
   Panel panel;
   panel.title = title;
-  panel.x.label = "motion / " + view.units.motion;
-  panel.y.label = "effort / " + view.units.effort;
+  panel.x.label = view.units.motion_label();
+  panel.y.label = view.units.effort_label();
   const auto x = thinned(series.motion, kPoints);
   const auto y = thinned(series.measured, kPoints);
   panel.series.push_back({"measured", "line", {"measured", 0}, x, y, {}, {}});
@@ -51,17 +51,17 @@ Figure headline_figure(const DiagnosisView& view) {
   figure.title =
       (series->trained ? "One recording: " : "A recording held out: ") + series->recording;
   figure.caption = has_after(*series)
-                       ? "Left without, right with what was left out. The wide line is measured; "
+                       ? "Left without, right with the missing physics. The wide line is measured; "
                          "what it shows beside the thin one is what the model lacks."
                        : "The wide line is measured; what it shows beside the thin one is what the "
                          "model lacks.";
-  figure.alt = "Hysteresis loop measured and modelled, without and with what was left out.";
+  figure.alt = "Hysteresis loop measured and modelled, without and with the missing physics.";
   Frame frame;
   frame.panels.push_back(
       panel_of(view, *series, has_after(*series) ? "without" : "", "baseline", 0, series->before));
   if (has_after(*series)) {
     frame.panels.push_back(
-        panel_of(view, *series, "with", "with what was left out", 1, series->after));
+        panel_of(view, *series, "with", "with the missing physics", 1, series->after));
   }
   share_efforts(frame.panels);
   figure.frames.push_back(std::move(frame));

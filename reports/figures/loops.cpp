@@ -37,8 +37,8 @@ void keep_measured_in_view(Panel& panel, const std::string& unit) {
 Panel loop_panel(const StudyView& view, const Input& input, const InputRecording& recording,
                  std::size_t points) {
   Panel panel;
-  panel.x.label = "motion / " + input.units.motion;
-  panel.y.label = "effort / " + input.units.effort;
+  panel.x.label = input.units.motion_label();
+  panel.y.label = input.units.effort_label();
   Series measured{"measured", "line", {"measured", 0}, recording.motion, recording.effort, {}, {}};
   std::vector<Series> simulated;
   for (const EstimatorView& estimator : view.estimators()) {
@@ -79,10 +79,12 @@ Figure own_loop_figure(const StudyView& view) {
   figure.id = "own-loop";
   figure.title = "The training loop that all estimators share";
   figure.caption =
-      "Look for daylight between the lines. Where there is none, this loop cannot tell the "
+      "Look for daylight between the lines. Where there is none, this loop does not separate the "
       "estimators "
       "apart: agreement on what was fitted proves nothing.";
-  figure.alt = "Hysteresis loop, effort over motion: measured, and simulated by every estimator.";
+  figure.alt =
+      "Hysteresis loop, torque (force) over torsion (displacement): measured, and simulated by "
+      "every estimator.";
   figure.pickers = {"input"};
   for (const Input& input : view.artefacts().inputs) {
     const std::string id = view.operating_point(input).recording;

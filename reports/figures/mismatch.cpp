@@ -51,16 +51,16 @@ std::vector<double> inside(const ShownSeries& series, const std::vector<Span>& s
 }
 
 Panel panel_of(const ShownSeries& series, const std::vector<double>& x, const std::string& title,
-               const std::string& x_label, const std::string& effort) {
+               const std::string& x_label, const ShownUnits& units) {
   Panel panel;
   panel.title = title;
   panel.x.label = x_label;
-  panel.y.label = "effort / " + effort;
+  panel.y.label = units.effort_label();
   panel.series.push_back({"measured", "line", {"measured", 0}, x, series.measured, {}, {}});
   panel.series.push_back({"baseline", "line", {"estimator", 0}, x, series.before, {}, {}});
   if (has_after(series)) {
     panel.series.push_back(
-        {"with what was left out", "line", {"estimator", 1}, x, series.after, {}, {}});
+        {"with the missing physics", "line", {"estimator", 1}, x, series.after, {}, {}});
   }
   return panel;
 }
@@ -76,9 +76,9 @@ ShownSeries lightened(ShownSeries series, std::size_t points) {
 std::vector<Panel> panels_of(const DiagnosisView& view, const ShownSeries& series) {
   const std::vector<Span> spans = spans_of(view, series);
   std::vector<Panel> panels;
-  panels.push_back(panel_of(series, series.motion, "over the motion",
-                            "motion / " + view.units.motion, view.units.effort));
-  panels.push_back(panel_of(series, series.time, "along time", "time / s", view.units.effort));
+  panels.push_back(panel_of(series, series.motion, "over the " + view.units.motion_name(),
+                            view.units.motion_label(), view.units));
+  panels.push_back(panel_of(series, series.time, "along time", "time / s", view.units));
   if (spans.empty()) return panels;
   panels.back().spans = spans;
   panels.front().series.push_back(
@@ -99,7 +99,7 @@ std::string caption_of(const DiagnosisView& view) {
               : "Yellow marks where they part most, on the loop and along time.";
   if (!view.causes.empty()) {
     text +=
-        " Look whether the dashed line, with what was left out, stays on the measured one "
+        " Look whether the dashed line, with the missing physics, stays on the measured one "
         "there.";
   }
   return text + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
@@ -137,10 +137,13 @@ std::vector<std::string> pickers_of(const DiagnosisView& view) {
 Figure mismatch_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "mismatch";
-  figure.title = view.causes.empty() ? "Measured, and modelled by the baseline"
-                                     : "Measured, and modelled without and with what was left out";
+  figure.title = view.causes.empty()
+                     ? "Measured, and modelled by the baseline"
+                     : "Measured, and modelled without and with the missing physics";
   figure.caption = caption_of(view);
-  figure.alt = "Effort over motion and over time: measured, baseline, and model with the causes.";
+  figure.alt =
+      "Torque (force) over torsion (displacement) and over time: measured, baseline, and model "
+      "with the causes.";
   figure.pickers = pickers_of(view);
   const std::size_t points = points_of(view);
   for (const ShownSeries* one : worst_first(view)) {
@@ -153,34 +156,33 @@ Figure mismatch_figure(const DiagnosisView& view) {
 Figure remainder_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "remainder";
-  figure.title = view.adequate() ? "What is left: measured less modelled"
-                                 : "Its signature: measured less modelled";
-  figure.caption =
-      "Noise has no shape. Look for one in the solid line, over the motion or at "
-      "certain times";
+  figure.title = view.adequate() ? "Residual: measured minus modelled"
+                                 : "Signature of the mismatch: measured minus modelled";
+  figure.caption = "Noise has no shape. Look for one in the solid line, over the " +
+                   view.units.motion_name() + " or at certain times";
   figure.caption += view.causes.empty() ? "." : ", and whether the dashed line has lost it.";
-  figure.alt = "Measured less modelled effort over motion and over time, before and after.";
+  figure.alt = "Residual over torsion (displacement) and over time, before and after.";
   figure.derived_from = "mismatch";
-  figure.y_label = "measured less modelled";
+  figure.y_label = "measured minus modelled";
   return figure;
 }
 
 Figure over_velocity_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "over-velocity";
-  figure.title = "The remainder over the velocity";
+  figure.title = "Residual over velocity";
   figure.caption =
-      "The velocity is what orders this mismatch. Look how the circles bend away from zero as "
+      "This mismatch depends on the velocity. Look how the circles bend away from zero as "
       "speed grows or falls, and whether the diamonds do not.";
-  figure.alt = "Measured less modelled effort over velocity, before and after.";
+  figure.alt = "Residual over velocity, before and after.";
   figure.pickers = pickers_of(view);
   if (view.mismatch.empty() || view.mismatch.front().coordinate != "velocity") return figure;
   const auto ordered = worst_first(view);
   if (ordered.empty() || ordered.front()->rate.empty()) return figure;
   const ShownSeries series = lightened(*ordered.front(), 400);
-  Panel panel = panel_of(series, series.rate, series.recording, "velocity / " + view.units.rate,
-                         view.units.effort);
-  panel.y.label = "measured less modelled / " + view.units.effort;
+  Panel panel =
+      panel_of(series, series.rate, series.recording, "velocity / " + view.units.rate, view.units);
+  panel.y.label = "measured minus modelled / " + view.units.effort;
   panel.series.erase(panel.series.begin());
   for (Series& line : panel.series) {
     line.style = "points";

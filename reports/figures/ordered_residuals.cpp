@@ -47,10 +47,8 @@ std::vector<Panel> panels_at(const StudyView& view, const Input& input,
     at.rate = rate_of(recording.time, recording.motion);
     at.phase = phase_of(recording.time, recording.frequency_hz);
   }
-  at.turn = "of the motion";
-  at.unit_motion = input.units.motion;
-  at.unit_rate = input.units.rate;
-  at.unit_effort = input.units.effort;
+  at.turn = "of the excitation";
+  at.units = input.units;
   std::vector<Remainder> left;
   for (const EstimatorView& estimator : view.estimators()) {
     const Case* item = view.find(input, estimator);
@@ -66,9 +64,9 @@ std::vector<Panel> panels_at(const StudyView& view, const Input& input,
 Figure ordered_residuals_figure(const StudyView& view) {
   Figure figure;
   figure.id = "ordered-residuals";
-  figure.title = "What is left over, by time, torsion, velocity, load and order";
+  figure.title = "Residual over time, torsion, velocity, load and order";
   figure.caption = kCaption;
-  figure.alt = "Means of measured less simulated effort over five coordinates, by estimator.";
+  figure.alt = "Means of the residual over five coordinates, by estimator.";
   figure.pickers = {"input", "recording"};
   for (const Input& input : view.artefacts().inputs) {
     for (const InputRecording* recording : view.places(input)) {
@@ -84,13 +82,13 @@ Figure ordered_residuals_figure(const StudyView& view) {
 Figure ordered_residuals_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "ordered-residuals";
-  figure.title = "What is left over, by time, torsion, velocity, load and order";
+  figure.title = "Residual over time, torsion, velocity, load and order";
   figure.caption = std::string(kCaption) + " Shaded: twice the standard error of the mean.";
-  figure.alt = "Means of measured less modelled effort over five coordinates, before and after.";
+  figure.alt = "Means of the residual over five coordinates, before and after.";
   figure.pickers = pickers_of(view);
   for (const ShownSeries* series : worst_first(view)) {
-    Coordinates at{series->time,   series->motion,    series->rate,    series->measured, {},
-                   "of the motor", view.units.motion, view.units.rate, view.units.effort};
+    Coordinates at{series->time, series->motion, series->rate, series->measured,
+                   {},           "of the motor", view.units};
     for (const double angle : series->motor_angle) {
       at.phase.push_back(angle * std::numbers::pi / 180.0);
     }
@@ -98,7 +96,7 @@ Figure ordered_residuals_figure(const DiagnosisView& view) {
         {"baseline", {"estimator", 0}, less(series->measured, series->before)}};
     if (has_after(*series)) {
       left.push_back(
-          {"with what was left out", {"estimator", 1}, less(series->measured, series->after)});
+          {"with the missing physics", {"estimator", 1}, less(series->measured, series->after)});
     }
     auto panels = residual_panels(at, left, true);
     if (!panels.empty()) figure.frames.push_back({choice_of(view, *series), std::move(panels)});

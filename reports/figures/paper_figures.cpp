@@ -166,8 +166,8 @@ Figure table_one_figure(const Paper& paper) {
   figure.alt = "Table I's f and g⁻¹ rise to the end of the fitted range, then fall below zero.";
   const double rate = 2.0 * std::numbers::pi * kFrequencyHz * kAmplitudeDeg;
   figure.frames.push_back({{},
-                           {beyond_panel(a, kAmplitudeDeg, "f", "motion / deg", "f / Nm"),
-                            beyond_panel(b, rate, "g⁻¹", "rate of motion / (deg/s)", "g⁻¹ / Nm")}});
+                           {beyond_panel(a, kAmplitudeDeg, "f", "torsion / deg", "f / Nm"),
+                            beyond_panel(b, rate, "g⁻¹", "torsion rate / (deg/s)", "g⁻¹ / Nm")}});
   return figure;
 }
 

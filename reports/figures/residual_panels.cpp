@@ -11,7 +11,7 @@ namespace flexspline::reports {
 namespace {
 
 constexpr std::size_t kMostStretches = 20;
-constexpr std::size_t kSamplesOfOne = 6;  ///< at least, in the middle case
+constexpr std::size_t kSamplesOfOne = 6;  ///< at least, at the median
 constexpr std::size_t kFewest = 3;        ///< samples of a mean that is shown
 constexpr int kOrders = 10;
 
@@ -96,14 +96,14 @@ bool turns(const std::vector<double>& phase) {
 std::vector<Panel> residual_panels(const Coordinates& at, const std::vector<Remainder>& left,
                                    bool bands) {
   struct Over {
-    const char* title;
+    std::string title;
     const std::vector<double>* x;
     std::string label;
   };
   const Over all[] = {{"by time", &at.time, "time / s"},
-                      {"by torsion", &at.motion, "motion / " + at.unit_motion},
-                      {"by velocity", &at.rate, "rate of motion / " + at.unit_rate},
-                      {"by load", &at.effort, "effort / " + at.unit_effort}};
+                      {"by " + at.units.motion_name(), &at.motion, at.units.motion_label()},
+                      {"by velocity", &at.rate, at.units.rate_label()},
+                      {"by load", &at.effort, at.units.effort_label()}};
   std::vector<Panel> panels;
   const auto keep = [&](Panel panel) {
     if (!panel.series.empty()) panels.push_back(std::move(panel));
@@ -112,7 +112,7 @@ std::vector<Panel> residual_panels(const Coordinates& at, const std::vector<Rema
     Panel panel;
     panel.title = one.title;
     panel.x.label = one.label;
-    panel.y.label = "mean of what is left / " + at.unit_effort;
+    panel.y.label = "mean residual / " + at.units.effort;
     if (one.x->empty()) continue;
     for (const Remainder& remainder : left) add_means(panel, *one.x, remainder, bands);
     keep(std::move(panel));
@@ -121,7 +121,7 @@ std::vector<Panel> residual_panels(const Coordinates& at, const std::vector<Rema
   Panel panel;
   panel.title = "by order " + at.turn;
   panel.x.label = "order";
-  panel.y.label = "amplitude / " + at.unit_effort;
+  panel.y.label = "amplitude / " + at.units.effort;
   for (const Remainder& remainder : left) panel.series.push_back(orders_of(at.phase, remainder));
   keep(std::move(panel));
   return panels;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "flexspline/reports/artefacts.hpp"
 #include "flexspline/reports/figure.hpp"
 
 namespace flexspline::reports {
@@ -18,8 +19,8 @@ struct Remainder {
 struct Coordinates {
   std::vector<double> time, motion, rate, effort;
   std::vector<double> phase;  ///< rad; a turn is what orders are counted by
-  std::string turn;           ///< "of the motor", "of the motion"
-  std::string unit_motion, unit_rate, unit_effort;
+  std::string turn;           ///< "of the motor", "of the excitation"
+  ShownUnits units;
 };
 
 /// One panel a coordinate: means of the remainder over stretches of it, with twice their standard

@@ -146,7 +146,7 @@ Figure reliability_figure(const TrialView& view) {
   Figure figure;
   figure.id = "reliability";
   figure.kind = "scatter";
-  figure.title = "What a printed probability is worth";
+  figure.title = "How reliable a printed probability is";
   figure.caption =
       "Of the names given with about this probability, the share that was right, with its 95 % "
       "interval. On the line, of the names given at p, p are right; below it, names are given with "

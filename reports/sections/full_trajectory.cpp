@@ -67,7 +67,7 @@ Table in_full(const StudyView& view) {
       {{"input", "", 3}, {"estimator", "", 3}, {"f", "%", 2}, {"g⁻¹", "%", 2}, {"h", "%", 2}},
       {}};
   for (const TorqueColumn& column : kTorqueColumns) {
-    table.columns.push_back({std::string("effort, ") + column.name, "%", 2});
+    table.columns.push_back({std::string("torque, ") + column.name, "%", 2});
     table.columns.push_back({"worst at", "", 3});
   }
   for (const Input& input : view.artefacts().inputs) {

@@ -109,7 +109,7 @@ std::string verdict_of(const StudyView& view) {
     if (item.verdict == "weak" || item.verdict == "not_identifiable") ++weak;
   }
   const std::string text = "Of " + std::to_string(done) + (done == 1 ? " fit, " : " fits, ") +
-                           std::to_string(with_h) + " could tell h from f and g⁻¹ and show it";
+                           std::to_string(with_h) + " would make h identifiable beside f and g⁻¹";
   if (weak == 0) return text + ".";
   return text + "; in " + std::to_string(weak) +
          " the method or its recordings do not determine h, and the reasons are below.";

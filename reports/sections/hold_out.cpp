@@ -28,7 +28,8 @@ std::vector<Cell> row_of(const StudyView& view, const Input& input, const Estima
 }
 
 constexpr const char* kWhatIsShown =
-    "Error of the simulated effort on held-out recordings, in percent of each recording's peak: "
+    "Error of the simulated torque or force on held-out recordings, in percent of each recording's "
+    "peak: "
     "against the noise-free torque where the bench knows it, else against what was measured. Held "
     "out are the recordings that no estimator was trained on; where there are none, those that "
     "this "

@@ -12,7 +12,7 @@ std::optional<Section> draw(const StudyView& view) {
                       " of this study's artefacts cannot be read. Every number on this page is "
                       "computed without them, from " +
                       std::to_string(artefacts.cases.size()) + " cases."});
-  for (const std::string& one : artefacts.unreadable) section.add(Paragraph{"Left out: " + one});
+  for (const std::string& one : artefacts.unreadable) section.add(Paragraph{"Not read: " + one});
   return section;
 }
 

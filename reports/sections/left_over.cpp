@@ -90,12 +90,12 @@ std::string verdict_of(const Input& input) {
 Figure residual_figure(const Figure& loops) {
   Figure figure;
   figure.id = "residuals";
-  figure.title = "What is left over: measured less simulated effort";
+  figure.title = "Residual: measured minus simulated";
   figure.caption =
       "Noise has no shape. A residual that is a loop of its own, or grows at the ends of the "
       "motion, "
       "is physics that the model does not have.";
-  figure.alt = "Residual effort over motion for every estimator on the chosen recording.";
+  figure.alt = "Residual over torsion for every estimator on the chosen recording.";
   figure.derived_from = loops.id;
   figure.y_label = "measured - simulated";
   return figure;

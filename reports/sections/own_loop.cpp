@@ -39,10 +39,10 @@ Table side_by_side(const StudyView& view) {
 
 Table in_full(const StudyView& view) {
   Table table{"own-loop-every-estimator",
-              "The same for every estimator, in the unit of the effort too.",
+              "The same for every estimator, in Nm (N) too.",
               {{"input", "", 3},
                {"estimator", "", 3},
-               {"rmse", "unit of effort", 3},
+               {"rmse", "Nm or N", 3},
                {"rmse", "%", 2},
                {"area", "%", 2}},
               {}};

@@ -42,7 +42,7 @@ Table table_one(const Paper& paper) {
   Table table{"table-1",
               "Table I: coefficients as published, and as the paper's method recovers them from "
               "the virtual bench. Wrong in it: nothing that could be recomputed, but it claims "
-              "more than one loop can give. Single coefficients are worth no more digits than "
+              "more than one loop can give. Single coefficients have no more digits than "
               "their standard deviations leave; only their sum over the range is determined.",
               {{"coefficient", "", 3},
                {"published", "", 5},
@@ -75,7 +75,7 @@ Table table_two(const Paper& paper) {
 
 Table slips_table(const Paper& paper) {
   Table table{"slips",
-              "Slips of the text, as far as a reader can tell what was meant.",
+              "Slips of the text, with what was presumably meant.",
               {{"where", "", 3}, {"printed", "", 3}, {"meant, or true", "", 3}},
               {}};
   for (const Slip& slip : paper.slips) {

@@ -79,7 +79,7 @@ void add_table(Section& section, Table table) {
 }
 
 std::optional<Section> draw(const TrialView& view) {
-  Section section{"calibration-section", "Where, and what a printed number is worth", {}};
+  Section section{"calibration-section", "Where, and how reliable a printed number is", {}};
   if (Figure figure = reliability_figure(view); !figure.frames.empty()) {
     section.add(std::move(figure));
   }

@@ -17,7 +17,7 @@ Table confusion_table(const TrialView& view) {
 
 Table twins_table(const TrialView& view) {
   Table table{"trial-twins",
-              "Structural twins: two effects that leave the same signal whatever such a rig "
+              "Structurally equivalent: two effects that leave the same signal whatever such a rig "
               "records. Either counts as the other.",
               {{"rig", "", 3}, {"effect", "", 3}, {"twin", "", 3}, {"because", "", 3}},
               {}};
@@ -32,7 +32,8 @@ std::optional<Section> draw(const TrialView& view) {
   Section section{"confusion-section", "What was taken for what?", {}};
   section.add(confusion_figure(view));
   section.fold("As a table", confusion_table(view));
-  if (!view.twins.empty()) section.fold("Effects that nobody can tell apart", twins_table(view));
+  if (!view.twins.empty())
+    section.fold("Equivalent effects, not separable on such recordings", twins_table(view));
   return section;
 }
 

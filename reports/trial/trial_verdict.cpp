@@ -32,7 +32,7 @@ Table rates_table(const TrialView& view) {
   Table table{"trial-rates",
               "What the trial was to show, with exact 95 % intervals. An effect can be seen where "
               "the baseline, fitted to the recordings, leaves as much of it as a diagnosis names "
-              "at least; what springs and dampers take up nobody can name.",
+              "at least; what f and g⁻¹ absorb cannot be named.",
               {{"question", "", 3},
                {"cases", "", 0},
                {"of", "", 0},

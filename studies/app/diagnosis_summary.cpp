@@ -57,8 +57,9 @@ std::string cause_lines(const ordered_json& cause) {
 
 std::string causes_text(const ordered_json& json) {
   if (json["causes"].empty()) return "";
-  std::string text = fmt::format("\n  {:<28} {:<18} {:<7} {:<7}", "left out, largest first",
-                                 "size, of the peak", "weight", "hold-out");
+  std::string text =
+      fmt::format("\n  {:<28} {:<18} {:<7} {:<7}", "missing from the model, largest first",
+                  "size, of the peak", "weight", "hold-out");
   for (const auto& cause : json["causes"]) text += cause_lines(cause);
   return text;
 }

@@ -4,7 +4,7 @@ namespace flexspline::studies {
 
 MetricRow describe_rmse_true() {
   return {.id = "rmse_true",
-          .meaning = "root mean square of simulated minus the bench's noise-free effort",
+          .meaning = "root mean square of simulated minus the bench's noise-free torque (force)",
           .unit = MetricUnit::effort,
           .compute = [](const ComparedSeries& s) { return compared_rms(s, s.simulated, s.truth); }};
 }

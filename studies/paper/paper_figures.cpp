@@ -136,7 +136,7 @@ void add_time_figures(const Drawn& d, ordered_json& figures) {
   figures.push_back(figure(
       "figure_4", "Measured angular displacement", "t / s", "theta_1 / deg",
       {"Motor angle, 10 deg at 0.005 Hz; ours runs up from rest.",
-       "Everything that follows rests on one amplitude and one frequency, which cannot tell a "
+       "Everything that follows rests on one amplitude and one frequency, which does not separate a "
        "viscous loss from a rate-independent one."},
       {series("paper", "pure sine", five.time, five.motor_angle, "line"),
        ours("measured", d.motor_angle, all)}));

@@ -40,7 +40,7 @@ class Gatherer {
 
   ResultsTable operator()() {
     make_axes();
-    add_errors("error_percent", "hold-out rms error of the effort, of the recording's peak",
+    add_errors("error_percent", "hold-out rms error of torque (force), of the recording's peak",
                "percent", &CaseRow::Recording::error_percent);
     add_errors("error", "hold-out rms error of the torque", "N m", &CaseRow::Recording::error);
     add_parameters("parameter_value", "estimates, in the units of parameter_unit",
@@ -157,15 +157,15 @@ class Gatherer {
     Variable ids{"row_recording", "id of the recording", "", {kRow}, {}, {}};
     Variable roles{"row_role", "train or holdout", "", {kRow}, {}, {}};
     Variable errors{"row_error_percent",
-                    "rms error of the effort, of the recording's peak",
+                    "rms error of torque (force), of the recording's peak",
                     "percent",
                     {kRow},
                     {},
                     {}};
-    Variable absolute{
-        "row_error", "rms error of the effort, in the unit of row_error_unit", "", {kRow}, {}, {}};
-    Variable units{
-        "row_error_unit", "unit of the effort: a torque, or a force", "", {kRow}, {}, {}};
+    Variable absolute{"row_error", "rms error of torque (force), in the unit of row_error_unit",
+                      "",          {kRow},
+                      {},          {}};
+    Variable units{"row_error_unit", "unit of the torque or force", "", {kRow}, {}, {}};
     for (const auto& [one, row] : cases_) {
       for (const CaseRow::Recording& recording : row->recordings) {
         absolute.values.push_back(recording.error);

@@ -42,7 +42,7 @@ constexpr KeyClass kKeys[] = {{"rmse", kError},
 const std::vector<QuantityClass>& quantity_classes() {
   static const std::vector<QuantityClass> classes = {
       {"series", 1e-6, 0.0, 0.05, "samples of a curve, of the largest of them"},
-      {"coefficients", 1e-6, 0.0, 1.0, "of a model; parameters and curves say what they are worth"},
+      {"coefficients", 1e-6, 0.0, 1.0, "of a model; parameters and curves are compared apart"},
       {"parameter", 1e-6, 1e-3, 1e-3,
        "estimates, with 4 standard deviations at the statistical level"},
       {"error", 1e-4, 0.0, 1.0, "misfits, costs, areas and their ratios"},

@@ -29,7 +29,7 @@ std::vector<HiddenParameter> apply(HiddenBench& bench, std::uint64_t seed) {
 
 DisturbanceRow describe_coarse_encoders() {
   return {.id = "coarse_encoders",
-          .says = "encoders with few steps a turn, the torsion worth a hundred and more",
+          .says = "encoders with few steps a turn, the torsion a hundred and more of them",
           .kinds = {bench_kinds().begin(), bench_kinds().end()},
           .apply = apply};
 }

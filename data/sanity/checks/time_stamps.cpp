@@ -38,7 +38,7 @@ void look_for_gaps(const Recording& recording, std::vector<SanityFinding>& list)
                     gaps, gaps == 1 ? "" : "s", *widest,
                     recording.time[static_cast<std::size_t>(widest - steps.begin())],
                     *widest / usual),
-        "cut it into recordings there: nobody knows what the motion did in between"));
+        "cut it into recordings there: the motion in between is unknown"));
   }
   const auto twice = std::ranges::count_if(steps, [&](double s) { return s < kDuplicate * usual; });
   if (twice == 0) return;

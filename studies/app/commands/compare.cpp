@@ -51,8 +51,8 @@ ordered_json table_of(const studies::StudyConfig& study, const std::filesystem::
 }
 
 std::string as_text(const ordered_json& rows) {
-  std::string text =
-      fmt::format("{:<24} {:<8} {:<28} {}", "estimator", "role", "recording", "rmse of the effort");
+  std::string text = fmt::format("{:<24} {:<8} {:<28} {}", "estimator", "role", "recording",
+                                 "rms error of torque (force)");
   for (const ordered_json& row : rows) {
     text += fmt::format("\n{:<24} {:<8} {:<28} {}", row.at("estimator").get<std::string>(),
                         row.at("role").get<std::string>(), row.at("recording").get<std::string>(),

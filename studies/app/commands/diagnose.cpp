@@ -83,7 +83,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_diagnose() {
   return {.id = "diagnose",
           .summary =
-              "Where model and recordings differ: locates it, names what was left out, "
+              "Where model and recordings differ: locates it, names the missing physics, "
               "models it and proves it on hold-out",
           .arguments = {{.name = "dataset",
                          .meaning = "folder of a data set",

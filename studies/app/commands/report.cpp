@@ -15,7 +15,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (auto done = refresh_manifest(arguments.text("dir"), drawn); !done) {
     return tl::unexpected(done.error());
   }
-  for (const std::string& one : page->left_out) console.error("left out: " + one);
+  for (const std::string& one : page->left_out) console.error("not read: " + one);
   const std::string path = page->page.string();
   console.result(
       console.json ? nlohmann::ordered_json{{"report", path}, {"left_out", page->left_out}}.dump(2)

@@ -14,11 +14,22 @@ namespace flexspline::reports {
 /// What an artefact holds as null.
 inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-/// Units of what is shown, as the artefact names them.
+/// Units of what is shown, as the artefact names them, and the quantities that they belong to.
 struct ShownUnits {
   std::string motion = "deg";
   std::string rate = "deg/s";
   std::string effort = "Nm";
+  std::string angle = "torsion";  ///< what an angular motion is: the torsion, or a joint's angle
+
+  bool is_linear() const { return effort.ends_with('N'); }
+  std::string motion_name() const { return is_linear() ? "displacement" : angle; }
+  std::string rate_name() const { return is_linear() ? "velocity" : angle + " rate"; }
+  std::string effort_name() const { return is_linear() ? "force" : "torque"; }
+
+  /// Labels of axes: "torsion / deg".
+  std::string motion_label() const { return motion_name() + " / " + motion; }
+  std::string rate_label() const { return rate_name() + " / " + rate; }
+  std::string effort_label() const { return effort_name() + " / " + effort; }
 };
 
 struct Curve {
