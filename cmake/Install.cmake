@@ -26,10 +26,12 @@ install(FILES "${CMAKE_BINARY_DIR}/flexsplineConfig.cmake" "${CMAKE_BINARY_DIR}/
 install(TARGETS flexspline RUNTIME COMPONENT program)
 install(FILES "${CMAKE_BINARY_DIR}/studies/app/flexspline.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
         COMPONENT program)
-install(DIRECTORY studies/ DESTINATION "${CMAKE_INSTALL_DATADIR}/flexspline/studies" COMPONENT program
-        FILES_MATCHING PATTERN "*.toml")
-install(FILES README.md CHANGELOG.md CITATION.cff docs/third-party.md DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-        COMPONENT program)
+file(GLOB example_studies CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/studies/*.toml")
+install(FILES ${example_studies} DESTINATION "${CMAKE_INSTALL_DATADIR}/flexspline/studies" COMPONENT program)
+install(DIRECTORY studies/models DESTINATION "${CMAKE_INSTALL_DATADIR}/flexspline/studies" COMPONENT program)
+install(DIRECTORY docs/examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/flexspline/examples" COMPONENT program)
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program PATTERN examples EXCLUDE)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT program)
 
 set(CPACK_GENERATOR DEB)
@@ -43,7 +45,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libflexspline-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "coinor-libipopt-dev, libboost-dev, libceres-dev, libeigen3-dev, libexpected-dev, libfmt-dev, \
-libnetcdf-dev, libssl-dev, libsundials-dev, libtomlplusplus-dev, nlohmann-json3-dev")
+libnetcdf-dev, libssl-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}: the program")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: libraries and headers for C++")
 set(CPACK_STRIP_FILES ON)

@@ -148,7 +148,7 @@ Result<ExitCode> run(const Arguments&, Console& console) {
       processors(),
       memory(),
       folder_for_output(),
-      found_on_path("node", "to build the program"),
+      found_on_path("node", "to build the program and to write a report's figures as SVG files"),
       found_on_path("chromium", "for the tests that open a report in a browser"),
       self_check(console)};
   console.result(console.json ? as_json(checks) : as_text(checks));
