@@ -3,6 +3,7 @@
 
 #include "export_fixture.hpp"
 #include "flexspline/core/simulate_rig.hpp"
+#include "mujoco_dir.hpp"
 #include "source_dir.hpp"
 
 namespace flexspline::data {
@@ -10,13 +11,9 @@ namespace {
 
 const std::filesystem::path kSource = FLEXSPLINE_SOURCE_DIR;
 
-/// Where the npm package @mujoco/mujoco lies; empty where it is not installed.
+/// Where the npm package @mujoco/mujoco lies.
 std::filesystem::path engine() {
-  for (const char* folder : {"data/bench/mujoco", "tests/data/mujoco"}) {
-    const auto package = kSource / folder / "node_modules/@mujoco/mujoco";
-    if (exists(package / "mujoco.js")) return package;
-  }
-  return {};
+  return std::filesystem::path(FLEXSPLINE_MUJOCO_DIR) / "node_modules/@mujoco/mujoco";
 }
 
 constexpr double kInterval = 2e-3;
@@ -60,13 +57,7 @@ double distance(const std::vector<double>& ours, const std::vector<double>& thei
 
 class InMuJoCo : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!there_is("node")) GTEST_SKIP() << "there is no node";
-    if (engine().empty()) {
-      GTEST_SKIP()
-          << "npm install --prefix tests/data/mujoco @mujoco/mujoco@3.14.0 has not been run";
-    }
-  }
+  void SetUp() override { ASSERT_TRUE(exists(engine() / "mujoco.js")) << "the build installs it"; }
   // Runs both and compares the load's angle; the motor's with it where it turns on its own.
   void expect_within(const RigModel& model, double amplitude, double share) {
     const Recording input = excitation(amplitude, 10.0);
