@@ -105,6 +105,7 @@ struct ContentJson {
   Json operator()(const Paragraph& paragraph) const { return {{"paragraph", paragraph.text}}; }
   Json operator()(const Heading& heading) const { return {{"heading", heading.text}}; }
   Json operator()(const Listing& listing) const { return {{"listing", listing.text}}; }
+  Json operator()(const Equation& equation) const { return {{"equation", equation.text}}; }
   Json operator()(const Figure& figure) const { return {{"figure", figure_json(figure)}}; }
   Json operator()(const Table& table) const { return {{"table", table_json(table)}}; }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "flexspline/reports/equation.hpp"
 #include "packed.hpp"
 
 namespace flexspline::reports {
@@ -60,6 +61,9 @@ struct ContentHtml {
   }
   std::string operator()(const Listing& listing) const {
     return "<pre tabindex=\"0\"><code>" + escaped(listing.text) + "</code></pre>\n";
+  }
+  std::string operator()(const Equation& equation) const {
+    return "<div class=\"equation\" tabindex=\"0\">" + mathml_of(equation.text) + "</div>\n";
   }
   std::string operator()(const Table& table) const {
     const std::string named = "aria-labelledby=\"caption-" + table.id + "\"";

@@ -83,7 +83,7 @@ std::optional<Section> draw(const DiagnosisView& view) {
   for (const ShownCause& cause : view.causes) {
     section.add(Heading{words(cause.effect)});
     section.add(Paragraph{sentence_of(cause)});
-    if (!cause.equation.empty()) section.add(Listing{cause.equation});
+    if (!cause.equation.empty()) section.add(Equation{cause.equation});
     if (!cause.parameters.empty()) section.add(parameters_table(cause));
   }
   section.add(Heading{"Evidence"});

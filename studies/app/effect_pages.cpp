@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/write_file.hpp"
+#include "flexspline/reports/equation.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -79,9 +80,9 @@ std::string_view site_in_words(Site site) {
 
 std::string effect_page(const EffectRow& row) {
   return fmt::format(
-      "{}\n# {}\n\n    {}\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of 226 Nm and "
+      "{}\n# {}\n\n$$\n{}\n$$\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of 226 Nm and "
       "ratio 50.\n\n{}\n## Range\n\nHolds for: {}.\n\nNot modelled: {}.\n\n## Source\n\n{}\n",
-      kOrigin, row.id, row.equation, facts(row), parameter_table(row), row.range, row.not_modelled,
+      kOrigin, row.id, reports::tex_of(row.equation), facts(row), parameter_table(row), row.range, row.not_modelled,
       row.source);
 }
 

@@ -32,7 +32,12 @@ struct Listing {
   std::string text;
 };
 
-using Content = std::variant<Verdict, Paragraph, Heading, Figure, Table, Listing>;
+/// Set as mathematics; in the linear notation of equation.hpp.
+struct Equation {
+  std::string text;
+};
+
+using Content = std::variant<Verdict, Paragraph, Heading, Figure, Table, Listing, Equation>;
 
 /// A piece of a section; folded pieces wait behind their summary, neighbours of one summary
 /// together.
