@@ -32,7 +32,7 @@ std::string symbol_tex(const Formula& one) {
 
 std::string sign_tex(const std::string& sign) {
   static const std::map<std::string, std::string> signs = {
-      {"+=", "\\mathrel{+}="}, {"-=", "\\mathrel{-}="}, {">=", "\\ge"},   {"<=", "\\le"},
+      {"+=", "\\mathrel{\\text{+=}}"}, {"-=", "\\mathrel{\\text{-=}}"}, {">=", "\\ge"},   {"<=", "\\le"},
       {"+-", "\\pm"},          {"*", "\\cdot"},         {",", ",\\;\\;"}, {";", ";\\;\\;"},
       {":", ":\\;"},           {"'", "\\prime"}};
   const auto found = signs.find(sign);

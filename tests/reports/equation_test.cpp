@@ -12,7 +12,7 @@ namespace {
 
 TEST(Equation, SetsWhatTheNotationMeans) {
   EXPECT_EQ(tex_of("tau_f += mu |tau|/N tanh(w/we)"),
-            "\\tau_{f} \\mathrel{+}= \\mu \\frac{\\left|\\tau\\right|}{N} \\tanh "
+            "\\tau_{f} \\mathrel{\\text{+=}} \\mu \\frac{\\left|\\tau\\right|}{N} \\tanh "
             "\\left(\\frac{w}{w_{e}}\\right)");
   EXPECT_EQ(tex_of("z' = w - s0 |w| z/g"), "z' = w - s_{0} \\left|w\\right| \\frac{z}{g}");
   EXPECT_EQ(tex_of("phi_e = phi - b tau/sqrt(tau^2 + t^2)"),

@@ -10,7 +10,7 @@ namespace flexspline::reports {
 /// `'` is a derivative, `sum_k` a sum; words of three letters and more are words. These set it as
 /// mathematics. Whatever does not parse stands as it was written.
 
-/// LaTeX for the middle of a line: `\tau_{f} \mathrel{+}= \mu \frac{|\tau|}{N} ...`.
+/// LaTeX for the middle of a line: `\tau_{f} \mathrel{\text{+=}} \mu \frac{|\tau|}{N} ...`.
 std::string tex_of(std::string_view equation);
 
 /// A MathML element <math display="block">, which browsers set without any script.
