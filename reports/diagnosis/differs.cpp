@@ -11,16 +11,22 @@ std::string interval_of(const ShownMismatch& one) {
   return compact(one.from_s, 4) + " to " + compact(one.to_s, 4) + " s";
 }
 
+std::string depends_on(const ShownMismatch& one) {
+  if (one.coordinate == "reversal_memory") return "distance since the last reversal";
+  return words(one.coordinate);
+}
+
 std::string sentence_of(const DiagnosisView& view) {
   if (view.mismatch.empty()) {
     return view.adequate() ? "Nowhere beyond the noise."
                            : "No place stands out: the artefact names no mismatch.";
   }
   const ShownMismatch& worst = view.mismatch.front();
-  std::string text = "Most of all along " + words(worst.coordinate);
-  if (!worst.equation.empty()) text += ", in the " + worst.equation + " equation";
-  text += " (" + worst.recording + ", " + interval_of(worst) + ")";
-  if (!worst.says.empty()) text += ": " + worst.says;
+  std::string text = "Largest mismatch: ";
+  if (!worst.equation.empty()) text += worst.equation + " equation, ";
+  text += "depends on the " + depends_on(worst) + "; largest in " + worst.recording + ", " +
+          interval_of(worst);
+  if (!worst.says.empty()) text += ". What is seen: " + worst.says;
   return sentence(text);
 }
 
@@ -28,7 +34,7 @@ Table mismatch_table(const DiagnosisView& view) {
   Table table{
       "mismatch",
       "Where the baseline and the recordings differ. The share is that of the misfit beyond "
-      "noise which the coordinate puts in order.",
+      "noise that this coordinate explains.",
       {{"depends on", "", 3},
        {"share", "%", 2},
        {"equation", "", 3},
@@ -37,8 +43,8 @@ Table mismatch_table(const DiagnosisView& view) {
        {"what is seen", "", 3}},
       {}};
   for (const ShownMismatch& one : view.mismatch) {
-    table.rows.push_back({words(one.coordinate), 100.0 * one.share_of_excess, one.equation,
-                          one.recording, interval_of(one), one.says});
+    table.rows.push_back({depends_on(one), 100.0 * one.share_of_excess, one.equation, one.recording,
+                          interval_of(one), one.says});
   }
   return table;
 }

@@ -112,6 +112,14 @@ function logRange(axis: Axis, values: number[]): Option {
   return { min: Math.min(...values) / 1.25, max: Math.max(...values) * 1.25 };
 }
 
+/** A little beyond the data on both sides alike: rounded ends would set a loop off its middle. */
+function linearRange(axis: Axis, values: number[]): Option {
+  const seen = values.filter(Number.isFinite);
+  const [low, high] = seen.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
+  if (axis.log || axis.range || !(high > low)) return {};
+  return { min: low - 0.05 * (high - low), max: high + 0.05 * (high - low) };
+}
+
 /** As wide as the longest name, within reason. */
 function categoryWidth(categories: string[]): number {
   const longest = Math.max(...categories.map((name) => name.length));
@@ -144,11 +152,12 @@ function axisOption(axis: Axis, values: number[], other: Option): Option {
       fontSize: 11,
       formatter: tick,
       hideOverlap: true,
-      showMinLabel: axis.range && !axis.log ? false : undefined,
-      showMaxLabel: axis.range && !axis.log ? false : undefined,
+      showMinLabel: axis.log ? undefined : false,
+      showMaxLabel: axis.log ? undefined : false,
       ...ticksAtData(axis, values),
     },
     ...logRange(axis, values),
+    ...linearRange(axis, values),
   };
 }
 
