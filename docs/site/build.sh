@@ -50,6 +50,8 @@ convert() {
 cp "$here/style.css" "$out/"
 mkdir -p "$out/docs"
 cp -r docs/images docs/examples "$out/docs/"
+mkdir -p "$out/docs/effects"
+cp -r docs/effects/figures "$out/docs/effects/"
 while read -r file; do convert "$file" & while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done; done < <(
   printf '%s\n' README.md CONTRIBUTING.md CHANGELOG.md; find docs -name '*.md' | sort)
 wait

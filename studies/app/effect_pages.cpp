@@ -1,8 +1,12 @@
 #include "effect_pages.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "effect_picture.hpp"
 #include "flexspline/core/write_file.hpp"
+#include "flexspline/reports/draw_figures.hpp"
 #include "flexspline/reports/equation.hpp"
 
 namespace flexspline::app {
@@ -54,6 +58,13 @@ std::string parameter_table(const EffectRow& row) {
   return table;
 }
 
+/// What a figure's file is called: letters, digits and dashes.
+std::string picture_name(const EffectRow& row) {
+  std::string name(row.id);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
 }  // namespace
 
 std::string_view site_in_words(Site site) {
@@ -80,10 +91,12 @@ std::string_view site_in_words(Site site) {
 
 std::string effect_page(const EffectRow& row) {
   return fmt::format(
-      "{}\n# {}\n\n$$\n{}\n$$\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of 226 Nm and "
+      "{}\n# {}\n\n$$\n{}\n$$\n\n![the loop without and with it, and the "
+      "difference](figures/{}.svg)\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of "
+      "226 Nm and "
       "ratio 50.\n\n{}\n## Range\n\nHolds for: {}.\n\nNot modelled: {}.\n\n## Source\n\n{}\n",
-      kOrigin, row.id, reports::tex_of(row.equation), facts(row), parameter_table(row), row.range, row.not_modelled,
-      row.source);
+      kOrigin, row.id, reports::tex_of(row.equation), picture_name(row), facts(row),
+      parameter_table(row), row.range, row.not_modelled, row.source);
 }
 
 std::string effect_index() {
@@ -117,6 +130,13 @@ Result<void> write_effect_pages(const std::filesystem::path& folder) {
     const auto path = folder / fmt::format("{}.md", row.id);
     if (auto done = write_file(path, effect_page(row)); !done) return done;
   }
+  std::vector<reports::Figure> pictures;
+  for (const EffectRow& row : effects()) {
+    auto picture = picture_of(row);
+    if (!picture) return tl::unexpected(in_context(picture.error(), std::string(row.id)));
+    pictures.push_back(std::move(*picture));
+  }
+  if (auto done = reports::draw_figures(folder / "figures", pictures); !done) return done;
   return write_file(folder / "README.md", effect_index());
 }
 
