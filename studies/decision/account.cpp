@@ -153,7 +153,7 @@ std::string noise_in_words(const Bench& bench) {
   std::vector<std::string> parts;
   for (const EquationRows& one : bench.equations) {
     parts.push_back(fmt::format(
-        "{}: autoregression of order {}, a sample worth {:.2g} of an independent one{}",
+        "{}: autoregression of order {}, a sample counting as {:.2g} of an independent one{}",
         name_of(one.equation), one.noise.order(), 1.0 / one.noise.inefficiency(),
         one.noise.freedom > 0.0
             ? fmt::format(", Student t with {:.0f} degrees of freedom", one.noise.freedom)
@@ -165,13 +165,12 @@ std::string noise_in_words(const Bench& bench) {
 std::string in_words(const Diagnosis& d, const Decision& decision, const Frame& frame) {
   std::vector<std::string> names;
   for (const Cause& c : d.causes) {
-    names.push_back(
-        c.alternatives.empty()
-            ? c.effect
-            : fmt::format("{} (or {}, which these recordings cannot tell apart from it)", c.effect,
-                          fmt::join(c.alternatives, " or ")));
+    names.push_back(c.alternatives.empty()
+                        ? c.effect
+                        : fmt::format("{} (or {}, confounded with it on these recordings)",
+                                      c.effect, fmt::join(c.alternatives, " or ")));
   }
-  std::string left = "something that no catalogued effect explains is left";
+  std::string left = "a residual remains that no catalogued effect explains";
   if (decision.burst) {
     left = fmt::format("an interval of recording {} stands out",
                        frame.segments[decision.burst->segment].id);
@@ -180,13 +179,13 @@ std::string in_words(const Diagnosis& d, const Decision& decision, const Frame& 
   }
   switch (d.verdict) {
     case Verdict::adequate:
-      return "Nothing was left out: the baseline explains the recordings to within their noise.";
+      return "Nothing is missing: the baseline explains the recordings to within their noise.";
     case Verdict::explained:
-      return fmt::format("Left out: {}.", fmt::join(names, " and "));
+      return fmt::format("Missing: {}.", fmt::join(names, " and "));
     case Verdict::partly_explained:
-      return fmt::format("Left out: {}; {}.", fmt::join(names, " and "), left);
+      return fmt::format("Missing: {}; {}.", fmt::join(names, " and "), left);
     default:
-      return fmt::format("Something was left out: {}.", left);
+      return fmt::format("Physics is missing: {}.", left);
   }
 }
 

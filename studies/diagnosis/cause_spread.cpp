@@ -127,7 +127,7 @@ void CauseSpread::attach_spread(bool shape, std::size_t cause, Index index,
       p.ci95_lower = p.value - kNormal95 * p.std;
       p.ci95_upper = p.value + kNormal95 * p.std;
     } else {
-      p.no_interval = "these recordings do not tell it apart from the others";
+      p.no_interval = "not identifiable beside the others on these recordings";
     }
     return;
   }

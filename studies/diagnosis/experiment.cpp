@@ -120,7 +120,7 @@ std::optional<NextExperiment> next_experiment(const Frame& frame, const Selectio
   next.separates = {std::string(best.cause.row->id), std::string(rival->cause.row->id)};
   next.excitation = "sine";
   next.says =
-      fmt::format("a sine of {:.3g} Hz and three cycles tells {} from {} by {:.0f} sigma",
+      fmt::format("sine of {:.3g} Hz, three cycles: expected to separate {} from {} (z = {:.0f})",
                   next.frequency_hz, next.separates[0], next.separates[1], next.separation_sigma);
   return next;
 }

@@ -153,8 +153,9 @@ Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Lim
                                [&](const ActiveCause& c) { return c.row == t.cause.row; });
   });
   if (rivals.empty()) return std::nullopt;
-  auto other = with_rival(frame, limits, s, cause,
-                          "it does not lower the error on recordings held out, a rival does");
+  auto other =
+      with_rival(frame, limits, s, cause,
+                 "it does not lower the error on recordings held out, an alternative does");
   if (!other) return tl::unexpected(other.error());
   if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
     return std::nullopt;

@@ -88,7 +88,7 @@ std::string outcome_of(const Accepted& a) {
 std::string outcome_of(const Trial& t, bool rival, const Limits& limits) {
   if (rival) return "explains the same signal nearly as well: an alternative";
   if (t.net_gain < limits.net_gain) return "gains no more than noise would";
-  if (is_taken_up(t, limits)) return "what it adds is taken up by the baseline";
+  if (is_taken_up(t, limits)) return "absorbed by the baseline";
   return "gains less than the accepted one";
 }
 
@@ -305,7 +305,7 @@ std::string spelled_verdict(const Selection& s, const Limits& limits, const Diag
   for (const Cause& cause : d.causes) {
     std::string name = cause.effect;
     if (!cause.alternatives.empty()) {
-      name += fmt::format(" (or {}, which these recordings cannot tell apart from it)",
+      name += fmt::format(" (or {}, confounded with it on these recordings)",
                           fmt::join(cause.alternatives, " or "));
     }
     names.push_back(std::move(name));
@@ -313,30 +313,30 @@ std::string spelled_verdict(const Selection& s, const Limits& limits, const Diag
   const std::string named = listed(names);
   switch (d.verdict) {
     case Verdict::adequate:
-      return "Nothing was left out: the baseline explains the recordings to within their noise.";
+      return "Nothing is missing: the baseline explains the recordings to within their noise.";
     case Verdict::explained:
-      return fmt::format("Left out: {}. {}.", named, proof_in_words(d.holdout, d.causes.size()));
+      return fmt::format("Missing: {}. {}.", named, proof_in_words(d.holdout, d.causes.size()));
     case Verdict::partly_explained:
       return fmt::format(
-          "Left out: {}. {}, and something that no catalogued effect explains is left.", named,
-          proof_in_words(d.holdout, d.causes.size()));
+          "Missing: {}. {}, and an unexplained residual remains that no catalogued effect "
+          "explains.",
+          named, proof_in_words(d.holdout, d.causes.size()));
     case Verdict::unexplained:
     case Verdict::undecided:
       break;
   }
   if (!s.remainder && left_unnamed(s, limits) == nullptr) {
     return fmt::format(
-        "Something was left out that no catalogued effect explains: the error on held-out "
+        "Physics is missing that no catalogued effect explains: the error on held-out "
         "recordings is {:.3g} times the noise.",
         d.holdout.over_noise());
   }
   if (!s.remainder) {
-    return fmt::format("Something was left out, too little for a name; {}.",
-                       d.mismatch.front().says);
+    return fmt::format("Physics is missing, too little to be named; {}.", d.mismatch.front().says);
   }
   return d.mismatch.empty()
-             ? "Something was left out that no catalogued effect explains."
-             : fmt::format("Something was left out that no catalogued effect explains; {}.",
+             ? "Physics is missing that no catalogued effect explains."
+             : fmt::format("Physics is missing that no catalogued effect explains; {}.",
                            d.mismatch.front().says);
 }
 

@@ -13,7 +13,8 @@ constexpr std::string_view kCoordinate = "motor_angle";
 
 std::string in_words(const Frame& frame, const Ripple& ripple) {
   return fmt::format(
-      "{:.0f} % of the fast changes left in steady strokes follow the motor angle {:.2f} times a "
+      "{:.0f} % of the fast changes left in constant-velocity segments follow the motor angle "
+      "{:.2f} times a "
       "turn, {:.0f} times one of the output: {:.2g} Nm at most, {:.2g} % of the largest torque",
       100.0 * ripple.share, ripple.order, ripple.order * frame.ratio, ripple.amplitude,
       100.0 * ripple.amplitude / frame.torque_range);
@@ -97,7 +98,7 @@ void add_to_tried(const Ripple& ripple, const RippleProof& proof, const CauseRow
                      .misfit_removed = ripple.share,
                      .delta_bic = -ripple.statistic,
                      .holdout_rmse_ratio = proof.ratio,
-                     .outcome = "accepted: by the fast changes in steady strokes"});
+                     .outcome = "accepted: by the fast changes in constant-velocity segments"});
 }
 
 void name_ripple(const Frame& frame, const Selection& s, const Limits& limits, const Ripple& ripple,
