@@ -1,18 +1,19 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace flexspline::estimators {
 
-/// Columns of a mixed model that share a prior variance, by what of them is normal with it: second
-/// differences of neighbouring coefficients from `first` on (width 3), or the coefficients
-/// themselves (width 1). `count` of them. precision: 1/variance; it is estimated unless held.
+/// Columns of a mixed model that share a prior variance, by what of them is normal with it: the
+/// sums of neighbours from `first` on with the weights of `rows`, one a row, or, where these are
+/// none, the coefficients themselves. precision: 1/variance; it is estimated unless held.
 struct PriorGroup {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
-  int width = 3;
+  std::vector<std::array<double, 3>> rows{};
   double precision = 1.0;
   bool held = false;
   int family = 0;  ///< groups of one spline; 0: a group on its own
@@ -35,5 +36,11 @@ MixedPosterior posterior_of(const Eigen::MatrixXd& information, const Eigen::Vec
 MixedPosterior restricted_likelihood(const Eigen::MatrixXd& information,
                                      const Eigen::VectorXd& gradient,
                                      std::vector<PriorGroup>& groups, int rounds);
+
+/// Covariance of c where the precisions are not known but estimated: with the mean moving by
+/// dc/d ln l_j = -l_j V D_j'D_j c, V + M W M', W the inverse of the expected information on ln l
+/// (Kass and Steffey, JASA 84, 1989; Wood, Pya and Saefken, JASA 111, 2016). To first order.
+Eigen::MatrixXd unconditional_covariance(const MixedPosterior& posterior,
+                                         const std::vector<PriorGroup>& groups);
 
 }  // namespace flexspline::estimators

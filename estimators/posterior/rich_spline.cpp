@@ -7,11 +7,15 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kEven = 0.6;  // share of the coordinate that is even; the rest is logarithmic
+constexpr int kMostSteps = 50;
+constexpr double kClose = 1e-12;
 
 }  // namespace
 
 RichSpline::RichSpline(double from, double to, std::size_t intervals, double fine)
-    : fine_(fine),
+    : low_(from),
+      high_(to),
+      fine_(fine),
       scale_(std::max(std::abs(from), std::abs(to))),
       from_(coordinate(from)),
       to_(coordinate(to)),
@@ -34,25 +38,45 @@ double RichSpline::coordinate_slope(double x) const {
   return kEven / scale_ + (1.0 - kEven) / (std::hypot(x, fine_) * std::asinh(scale_ / fine_));
 }
 
+// Newton's iteration; as the coordinate bends towards the axis it never overshoots from zero on.
+double RichSpline::at_coordinate(double u) const {
+  double x = 0.0;
+  for (int k = 0; k < kMostSteps; ++k) {
+    const double step = (coordinate(x) - u) / coordinate_slope(x);
+    x -= step;
+    if (std::abs(step) < kClose * scale_) break;
+  }
+  return x;
+}
+
+std::array<double, 3> RichSpline::bend(Eigen::Index k) const {
+  const auto centre = [&](Eigen::Index i) {
+    return at_coordinate(from_ + static_cast<double>(i - 1) * width_) / (width_ * scale_);
+  };
+  const double before = centre(k + 1) - centre(k);
+  const double after = centre(k + 2) - centre(k + 1);
+  const double root = std::sqrt(0.5 * (before + after));
+  return {1.0 / (before * root), -(1.0 / before + 1.0 / after) / root, 1.0 / (after * root)};
+}
+
 double RichSpline::beyond(double x) const {
-  const double u = coordinate(x);
-  return std::max({0.0, u - to_, from_ - u}) / width_;
+  return std::abs(x - std::clamp(x, low_, high_)) / (width_ * scale_);
 }
 
 void RichSpline::value(double x, Eigen::Ref<Eigen::RowVectorXd> row) const {
-  const double u = coordinate(x);
-  const double inside = std::clamp(u, from_, to_);
-  const auto local = basis_.at(inside);
+  const double inside = std::clamp(x, low_, high_);
+  const double out = (x - inside) * coordinate_slope(inside);
+  const auto local = basis_.at(coordinate(inside));
   row = -at_zero_;
   for (std::size_t k = 0; k < 4; ++k) {
-    row[static_cast<Eigen::Index>(local.first + k)] +=
-        local.value[k] + (u - inside) * local.slope[k];
+    row[static_cast<Eigen::Index>(local.first + k)] += local.value[k] + out * local.slope[k];
   }
 }
 
 void RichSpline::slope(double x, Eigen::Ref<Eigen::RowVectorXd> row) const {
-  const auto local = basis_.at(std::clamp(coordinate(x), from_, to_));
-  const double rate = coordinate_slope(x);
+  const double inside = std::clamp(x, low_, high_);
+  const auto local = basis_.at(coordinate(inside));
+  const double rate = coordinate_slope(inside);
   row.setZero();
   for (std::size_t k = 0; k < 4; ++k) {
     row[static_cast<Eigen::Index>(local.first + k)] = local.slope[k] * rate;

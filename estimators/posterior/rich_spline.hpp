@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "flexspline/core/cubic_basis.hpp"
@@ -17,14 +19,19 @@ class RichSpline {
   /// Weights of the coefficients in the value and the slope at x, straight on beyond the ends.
   void value(double x, Eigen::Ref<Eigen::RowVectorXd> row) const;
   void slope(double x, Eigen::Ref<Eigen::RowVectorXd> row) const;
-  /// How far x lies beyond the ends, in intervals.
+  /// Weights of coefficients k, k + 1 and k + 2 in what is normal with one variance where the
+  /// second derivative is white noise: the second divided difference at the centres of their
+  /// functions, by the root of the distance between these; 1, -2, 1 where all intervals are alike.
+  std::array<double, 3> bend(Eigen::Index k) const;
+  /// How far x lies beyond the ends, in mean intervals.
   double beyond(double x) const;
 
  private:
   double coordinate(double x) const;
   double coordinate_slope(double x) const;
+  double at_coordinate(double u) const;
 
-  double fine_, scale_, from_, to_, width_;
+  double low_, high_, fine_, scale_, from_, to_, width_;
   CubicBasis basis_;
   Eigen::RowVectorXd at_zero_;
 };

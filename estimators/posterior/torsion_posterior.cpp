@@ -9,52 +9,61 @@
 namespace flexspline::estimators {
 namespace {
 
-constexpr std::size_t kMotionIntervals = 80;
+constexpr std::size_t kMotionIntervals = 100;
 constexpr std::size_t kSpeedIntervals = 60;
-constexpr std::size_t kModulationIntervals = 56;
-constexpr double kFineSpeed = 0.02;       // of the largest: below it the coordinate is logarithmic
-constexpr Eigen::Index kPerGroup = 7;     // second differences that share a roughness
+constexpr std::size_t kModulationIntervals = 72;
+// Of the range: below it the coordinate is logarithmic. f and h are finest where f(0) = 0 and
+// h(0) = 1 hold them, as a kink there that is smoothed would move them everywhere.
+constexpr double kFineMotion = 0.02;
+constexpr double kFineSpeed = 0.02;
+constexpr Eigen::Index kPerGroup = 4;     // second differences that share a roughness
 constexpr double kFirstPrecision = 1e-2;  // of the largest information
 constexpr double kFirstOfOne = 1e-8;      // a jump is taken as such before the spline steepens
 constexpr double kFirstOfH = 1.0;         // h bends where f and g^-1 leave it to
+constexpr double kFirstOfFreeH = 1e-4;    // or h bends first
 constexpr double kFurthest = 0.5;         // of ln h in one step
-constexpr int kSteps = 24;                // linearisations
+constexpr int kSteps = 25;                // linearisations
+constexpr int kStepsOfMisfit = 8;         // those after the noise was taken from what is left
 constexpr int kRounds = 3;                // of the precisions, each
 constexpr double kSettled = 0.05;         // standard deviations that a step may still move by
 constexpr double kRefuted = 4.0;          // standard deviations of a sum of squares
 
 constexpr int kFamilyOfH = 3;
 
-void add_spline(std::vector<PriorGroup>& groups, Eigen::Index first, Eigen::Index size,
+// The second derivative of a spline is white noise of an intensity that is local: second divided
+// differences at the centres of its functions, by the root of their distance.
+void add_spline(std::vector<PriorGroup>& groups, Eigen::Index first, const RichSpline& spline,
                 int family) {
-  const Eigen::Index differences = size - 2;
+  const Eigen::Index differences = spline.size() - 2;
   const Eigen::Index parts = std::max<Eigen::Index>(1, differences / kPerGroup);
   for (Eigen::Index k = 0; k < parts; ++k) {
     const Eigen::Index from = k * differences / parts;
     const Eigen::Index to = (k + 1) * differences / parts;
-    groups.push_back({.first = first + from, .count = to - from, .family = family});
+    PriorGroup group{.first = first + from, .count = to - from, .family = family};
+    for (Eigen::Index i = from; i < to; ++i) group.rows.push_back(spline.bend(i));
+    groups.push_back(std::move(group));
   }
 }
 
 std::vector<PriorGroup> groups_of(const RichLaws& laws, const RegressionColumns& at) {
   std::vector<PriorGroup> groups;
-  add_spline(groups, at.f, laws.f.size(), 1);
-  add_spline(groups, at.g, laws.g_inverse.size(), 2);
-  if (at.h >= 0) add_spline(groups, at.h, laws.log_h.size(), kFamilyOfH);
+  add_spline(groups, at.f, laws.f, 1);
+  add_spline(groups, at.g, laws.g_inverse, 2);
+  if (at.h >= 0) add_spline(groups, at.h, laws.log_h, kFamilyOfH);
   for (Eigen::Index one : {at.jump, at.inertia, at.delay}) {
-    groups.push_back({.first = one, .count = 1, .width = 1});
+    groups.push_back({.first = one, .count = 1});
   }
-  groups.push_back({.first = at.motion, .count = at.size - at.motion, .width = 1, .held = true});
+  groups.push_back({.first = at.motion, .count = at.size - at.motion, .held = true});
   return groups;
 }
 
 // Smooth f and g^-1, h nearly straight, a jump that is free: so a kink or a jump is taken as such
 // before h bends or g^-1 steepens to stand in for it.
-void begin(std::vector<PriorGroup>& groups, double typical) {
+void begin(std::vector<PriorGroup>& groups, double typical, double first_of_h) {
   for (auto& group : groups) {
     if (group.held) continue;
-    const double share = group.width == 1             ? kFirstOfOne
-                         : group.family == kFamilyOfH ? kFirstOfH
+    const double share = group.rows.empty()           ? kFirstOfOne
+                         : group.family == kFamilyOfH ? first_of_h
                                                       : kFirstPrecision;
     group.precision = share * typical;
   }
@@ -82,6 +91,20 @@ RegressionRows whitened(const FoldedRecord& one, RegressionRows rows) {
   return rows;
 }
 
+// Entries i >= j of J'J, row by row of J: most entries of a row in white noise are zero.
+template <class Each>
+void for_each_product(const Eigen::MatrixXd& jacobian, const Each& each) {
+  std::vector<Eigen::Index> filled;
+  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
+    filled.clear();
+    for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+      if (jacobian(row, i) == 0.0) continue;
+      filled.push_back(i);
+      for (const Eigen::Index j : filled) each(i, j, jacobian(row, i) * jacobian(row, j));
+    }
+  }
+}
+
 Normal normal_equations(const TorsionRegression& all, const std::vector<FoldedRecord>& records,
                         const Eigen::VectorXd& c) {
   Normal normal;
@@ -91,7 +114,13 @@ Normal normal_equations(const TorsionRegression& all, const std::vector<FoldedRe
     normal.plain.push_back(all.linearise(r, c));
     normal.whitened.push_back(whitened(records[r], normal.plain.back()));
     const auto& rows = normal.whitened.back();
-    normal.information.selfadjointView<Eigen::Lower>().rankUpdate(rows.jacobian.transpose());
+    if (records[r].noise.share > 0.0) {
+      normal.information.selfadjointView<Eigen::Lower>().rankUpdate(rows.jacobian.transpose());
+    } else {
+      for_each_product(rows.jacobian, [&](Eigen::Index i, Eigen::Index j, double product) {
+        normal.information(i, j) += product;
+      });
+    }
     normal.gradient += rows.jacobian.transpose() * rows.target;
   }
   normal.information = Eigen::MatrixXd(normal.information.selfadjointView<Eigen::Lower>());
@@ -103,7 +132,11 @@ Eigen::VectorXd left_of(const RegressionRows& rows, const Eigen::VectorXd& c) {
 }
 
 double edf_of(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
-  return (jacobian * covariance).cwiseProduct(jacobian).sum();
+  double sum = 0.0;
+  for_each_product(jacobian, [&](Eigen::Index i, Eigen::Index j, double product) {
+    sum += (i == j ? 1.0 : 2.0) * product * covariance(i, j);
+  });
+  return sum;
 }
 
 // Share of a step in which ln h moves no further than the linearisation reaches.
@@ -119,27 +152,22 @@ double largest_move(const TorsionPosterior& model, const Eigen::VectorXd& step) 
   return (step.head(model.at.motion).cwiseAbs().array() / variance.cwiseSqrt().array()).maxCoeff();
 }
 
-// Takes the noise of recordings that leave more than it from what they leave.
-bool take_misfit(TorsionPosterior& model, std::vector<FoldedRecord>& records, const Normal& normal,
-                 const std::vector<PreparedRecord>& prepared) {
-  bool changed = false;
+// Which recordings leave more than the noise of their repeats.
+std::vector<bool> refuted(TorsionPosterior& model, const std::vector<FoldedRecord>& records,
+                          const Normal& normal) {
+  std::vector<bool> list;
   double squares = 0.0;
   double freedom = 0.0;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd left = left_of(normal.whitened[r], model.law.mean);
-    const double own = static_cast<double>(left.size()) -
+    const double left = left_of(normal.whitened[r], model.law.mean).squaredNorm();
+    const double own = static_cast<double>(normal.whitened[r].target.size()) -
                        edf_of(normal.whitened[r].jacobian, model.law.covariance);
-    squares += left.squaredNorm();
+    squares += left;
     freedom += own;
-    const bool refuted = left.squaredNorm() > own + kRefuted * std::sqrt(2.0 * own);
-    if (!refuted && records[r].repeats) continue;
-    if (refuted && records[r].repeats) model.misfits.push_back(prepared[r].record.id);
-    const Eigen::VectorXd raw = left_of(normal.plain[r], model.law.mean);
-    records[r].noise = noise_of(records[r], {raw.begin(), raw.end()});
-    changed = true;
+    list.push_back(records[r].repeats && left > own + kRefuted * std::sqrt(2.0 * own));
   }
   model.misfit = std::sqrt(squares / freedom);
-  return changed;
+  return list;
 }
 
 std::array<double, 2> value_of(const TorsionPosterior& model, const RichSpline& spline,
@@ -177,28 +205,82 @@ Result<RichLaws> rich_laws(const std::vector<PreparedRecord>& prepared,
   const Ranges ranges = ranges_of(prepared, false);
   const double low = ranges.lowest_motion;
   const double high = ranges.highest_motion;
-  return RichLaws{.f = RichSpline(low, high, kMotionIntervals, 0.0),
-                  .g_inverse = RichSpline(-fastest, fastest, kSpeedIntervals, kFineSpeed * fastest),
-                  .log_h = RichSpline(low, high, kModulationIntervals, 0.0)};
+  return RichLaws{
+      .f = RichSpline(low, high, kMotionIntervals, kFineMotion * ranges.motion),
+      .g_inverse = RichSpline(-fastest, fastest, kSpeedIntervals, kFineSpeed * fastest),
+      .log_h = RichSpline(low, high, kModulationIntervals, kFineMotion * ranges.motion)};
 }
 
-void iterate(TorsionPosterior& model, std::vector<FoldedRecord>& records,
-             const std::vector<PreparedRecord>& prepared) {
-  const TorsionRegression all(model.laws, model.at, records);
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(model.at.size);
-  bool noise_taken = false;
-  for (int step = 0; step < kSteps; ++step) {
-    const Normal normal = normal_equations(all, records, c);
-    // The first step sees no h: its columns begin where g^-1 has a slope.
-    if (step < 2) begin(model.groups, normal.information.diagonal().maxCoeff());
+// Root mean square of what is left, in noises.
+double left_in_noises(const Normal& normal, const Eigen::VectorXd& c) {
+  double squares = 0.0;
+  double rows = 0.0;
+  for (const auto& one : normal.whitened) {
+    squares += left_of(one, c).squaredNorm();
+    rows += static_cast<double>(one.target.size());
+  }
+  return std::sqrt(squares / rows);
+}
+
+// Linearises in turn at c and takes the law there, until neither moves by what the noise, or more
+// where more is left, lets them be known to. Returns the last equations.
+Normal settle(TorsionPosterior& model, const TorsionRegression& all,
+              const std::vector<FoldedRecord>& records, int steps, Eigen::VectorXd& c) {
+  for (int step = 1;; ++step) {
+    Normal normal = normal_equations(all, records, c);
     model.law = restricted_likelihood(normal.information, normal.gradient, model.groups, kRounds);
     const Eigen::VectorXd moved = model.law.mean - c;
     c += moved * shortened(model, moved);
-    const bool settled = largest_move(model, moved) < kSettled;
-    if (step < 2 || !(settled || (!noise_taken && step >= kSteps / 2))) continue;
-    if (noise_taken || !take_misfit(model, records, normal, prepared)) break;
+    const double close = kSettled * std::max(1.0, left_in_noises(normal, model.law.mean));
+    if (step >= steps || largest_move(model, moved) < close) return normal;
+  }
+}
+
+// The law and what recordings leave, from priors that begin with an h as stiff as this.
+struct Attempt {
+  TorsionPosterior model;
+  Eigen::VectorXd c;
+  Normal normal;
+  std::vector<bool> refuted;
+
+  bool misses() const { return std::ranges::find(refuted, true) != refuted.end(); }
+};
+
+Attempt attempt(TorsionPosterior model, const TorsionRegression& all,
+                const std::vector<FoldedRecord>& records, double first_of_h) {
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(model.at.size);
+  // The first step sees no h, whose columns begin where g^-1 has a slope.
+  for (int step = 0; step < 2; ++step) {
+    const Normal normal = normal_equations(all, records, c);
+    begin(model.groups, normal.information.diagonal().maxCoeff(), first_of_h);
+    c = restricted_likelihood(normal.information, normal.gradient, model.groups, kRounds).mean;
+  }
+  Normal normal = settle(model, all, records, kSteps, c);
+  auto misses = refuted(model, records, normal);
+  return {std::move(model), std::move(c), std::move(normal), std::move(misses)};
+}
+
+// Where repeats refute the law, another start may find a better one; where none does, and where
+// there are no repeats, the noise is taken from what is left.
+TorsionPosterior concluded(const TorsionPosterior& empty, const TorsionRegression& all,
+                           std::vector<FoldedRecord>& records,
+                           const std::vector<PreparedRecord>& prepared) {
+  Attempt best = attempt(empty, all, records, kFirstOfH);
+  if (best.misses() && empty.at.h >= 0) {
+    Attempt other = attempt(empty, all, records, kFirstOfFreeH);
+    if (other.model.misfit < best.model.misfit) best = std::move(other);
+  }
+  bool noise_taken = false;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    if (best.refuted[r]) best.model.misfits.push_back(prepared[r].record.id);
+    if (records[r].repeats && !best.refuted[r]) continue;
+    const Eigen::VectorXd raw = left_of(best.normal.plain[r], best.model.law.mean);
+    records[r].noise = noise_of(records[r], {raw.begin(), raw.end()});
     noise_taken = true;
   }
+  if (noise_taken) settle(best.model, all, records, kStepsOfMisfit, best.c);
+  best.model.law.covariance = unconditional_covariance(best.model.law, best.model.groups);
+  return std::move(best.model);
 }
 
 }  // namespace
@@ -224,7 +306,8 @@ Result<TorsionPosterior> torsion_posterior(const std::vector<PreparedRecord>& pr
   if (!laws) return tl::unexpected(laws.error());
   const RegressionColumns at = regression_columns(*laws, records, with_h);
   TorsionPosterior model{.laws = *laws, .at = at, .groups = groups_of(*laws, at)};
-  iterate(model, records, prepared);
+  const TorsionRegression all(model.laws, model.at, records);
+  model = concluded(model, all, records, prepared);
   if (!model.law.mean.allFinite() || !model.law.covariance.allFinite()) {
     return failure(ErrorCode::numerics, "the penalised splines of eq. (4) have no finite law",
                    "leave out recordings that hardly move");

@@ -20,15 +20,59 @@ struct Log {
   std::string last_failure;
 };
 
+// Keeps what every block last gave with derivatives: Ceres asks again where it begins, where a
+// trial is accepted, and where it ended. eager: derivatives are found at trials, too.
+class Remembering final : public LeastSquaresProblem {
+ public:
+  Remembering(const LeastSquaresProblem& problem, bool eager, Log& log)
+      : problem_(problem), eager_(eager), log_(log), last_(problem.blocks()) {}
+
+  std::size_t blocks() const override { return problem_.blocks(); }
+  std::size_t residuals(std::size_t block) const override { return problem_.residuals(block); }
+
+  Result<void> evaluate(std::size_t block, std::span<const double> p, std::span<double> residual,
+                        std::span<double> jacobian) const override {
+    if (jacobian.empty() && !eager_) return problem_evaluate(block, p, residual, {});
+    Last& last = last_[block];
+    if (!std::ranges::equal(last.p, p)) {
+      last.p.clear();
+      last.residual.resize(residual.size());
+      last.jacobian.resize(residual.size() * p.size());
+      if (auto done = problem_evaluate(block, p, last.residual, last.jacobian); !done) return done;
+      last.p.assign(p.begin(), p.end());
+    }
+    std::ranges::copy(last.residual, residual.begin());
+    if (!jacobian.empty()) std::ranges::copy(last.jacobian, jacobian.begin());
+    return {};
+  }
+
+ private:
+  struct Last {
+    std::vector<double> p, residual, jacobian;
+  };
+
+  Result<void> problem_evaluate(std::size_t block, std::span<const double> p,
+                                std::span<double> residual, std::span<double> jacobian) const {
+    ++log_.evaluations;
+    auto done = problem_.evaluate(block, p, residual, jacobian);
+    if (!done) {
+      const std::lock_guard lock(log_.mutex);
+      log_.last_failure = done.error().message();
+    }
+    return done;
+  }
+
+  const LeastSquaresProblem& problem_;
+  bool eager_;
+  Log& log_;
+  mutable std::vector<Last> last_;  // Ceres evaluates a block once at a time
+};
+
 class Block final : public ceres::CostFunction {
  public:
   Block(const LeastSquaresProblem& problem, std::size_t index,
-        std::span<const BoundedParameter> parameters, bool slopes_at_trials, Log& log)
-      : problem_(problem),
-        index_(index),
-        parameters_(parameters),
-        slopes_at_trials_(slopes_at_trials),
-        log_(log) {
+        std::span<const BoundedParameter> parameters)
+      : problem_(problem), index_(index), parameters_(parameters) {
     set_num_residuals(static_cast<int>(problem.residuals(index)));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
@@ -39,45 +83,16 @@ class Block final : public ceres::CostFunction {
     std::vector<double> p(count);
     for (std::size_t k = 0; k < count; ++k) p[k] = scaled[0][k] * parameters_[k].scale;
     double* wanted = jacobians != nullptr ? jacobians[0] : nullptr;
-    if (!slopes_at_trials_) {
-      return evaluate(p, {residuals, rows}, {wanted, wanted != nullptr ? rows * count : 0});
-    }
-    if (p != last_) {
-      last_.clear();
-      residual_.resize(rows);
-      jacobian_.resize(rows * count);
-      if (!evaluate(p, residual_, jacobian_)) return false;
-      last_ = std::move(p);
-    }
-    std::ranges::copy(residual_, residuals);
-    if (wanted != nullptr) std::ranges::copy(jacobian_, wanted);
+    const std::span<double> jacobian{wanted, wanted != nullptr ? rows * count : 0};
+    if (!problem_.evaluate(index_, p, {residuals, rows}, jacobian)) return false;
+    for (std::size_t i = 0; i < jacobian.size(); ++i) jacobian[i] *= parameters_[i % count].scale;
     return true;
   }
 
  private:
-  bool evaluate(std::span<const double> p, std::span<double> residual,
-                std::span<double> jacobian) const {
-    ++log_.evaluations;
-    const auto done = problem_.evaluate(index_, p, residual, jacobian);
-    if (!done) {
-      const std::lock_guard lock(log_.mutex);
-      log_.last_failure = done.error().message();
-      return false;
-    }
-    for (std::size_t i = 0; i < jacobian.size(); ++i)
-      jacobian[i] *= parameters_[i % p.size()].scale;
-    return true;
-  }
-
   const LeastSquaresProblem& problem_;
   std::size_t index_;
   std::span<const BoundedParameter> parameters_;
-  bool slopes_at_trials_;
-  Log& log_;
-  // Where it was last evaluated with derivatives; Ceres asks for them after the trial.
-  mutable std::vector<double> last_;
-  mutable std::vector<double> residual_;
-  mutable std::vector<double> jacobian_;
 };
 
 Termination termination_of(const ceres::Solver::Summary& summary) {
@@ -106,17 +121,19 @@ ceres::Solver::Options solver_options(const SolverSettings& settings) {
   return options;
 }
 
-// Gradient J'r in the solver's scaled parameters; also counts as the first evaluation.
-Result<std::vector<double>> scaled_gradient(const LeastSquaresProblem& problem,
-                                            std::span<const BoundedParameter> parameters,
-                                            const std::vector<double>& x) {
+std::vector<double> unscaled(std::span<const BoundedParameter> parameters,
+                             const std::vector<double>& x) {
   std::vector<double> p(x.size());
   for (std::size_t k = 0; k < x.size(); ++k) p[k] = x[k] * parameters[k].scale;
-  const auto at = linearise(problem, p);
-  if (!at) return tl::unexpected(at.error());
-  const Eigen::VectorXd gradient = at->jacobian.transpose() * at->residual;
-  std::vector<double> result(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) {
+  return p;
+}
+
+// Gradient J'r in the solver's scaled parameters.
+std::vector<double> scaled_gradient(const Linearisation& at,
+                                    std::span<const BoundedParameter> parameters) {
+  const Eigen::VectorXd gradient = at.jacobian.transpose() * at.residual;
+  std::vector<double> result(parameters.size());
+  for (std::size_t k = 0; k < result.size(); ++k) {
     result[k] = gradient[static_cast<Eigen::Index>(k)] * parameters[k].scale;
   }
   return result;
@@ -139,11 +156,10 @@ std::vector<int> held_on_bounds(std::span<const BoundedParameter> parameters,
 ceres::Solver::Summary solve_holding(const LeastSquaresProblem& problem,
                                      std::span<const BoundedParameter> parameters,
                                      const std::vector<int>& held, const SolverSettings& settings,
-                                     std::vector<double>& x, Log& log) {
+                                     std::vector<double>& x) {
   ceres::Problem ceres_problem;
   for (std::size_t b = 0; b < problem.blocks(); ++b) {
-    ceres_problem.AddResidualBlock(
-        new Block(problem, b, parameters, settings.slopes_at_trials, log), nullptr, x.data());
+    ceres_problem.AddResidualBlock(new Block(problem, b, parameters), nullptr, x.data());
   }
   for (std::size_t k = 0; k < x.size(); ++k) {
     const auto& parameter = parameters[k];
@@ -168,7 +184,7 @@ ceres::Solver::Summary solve_holding(const LeastSquaresProblem& problem,
 
 // Ceres projects onto bounds, which zigzags along those that are active; so what the start holds on
 // a bound is held there, and let go where the gradient then says so.
-Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
+Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& asked,
                                       std::span<const BoundedParameter> parameters,
                                       const SolverSettings& settings) {
   std::vector<double> x(parameters.size());
@@ -177,19 +193,21 @@ Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
     x[k] = std::clamp(parameter.start, parameter.lower, parameter.upper) / parameter.scale;
   }
   Log log;
+  const Remembering problem(asked, settings.slopes_at_trials, log);
   LeastSquaresSolution solution;
   std::vector<int> held;
   for (int round = 0;; ++round) {
-    const auto gradient = scaled_gradient(problem, parameters, x);
-    if (!gradient) return tl::unexpected(in_context(gradient.error(), "the start of the fit"));
-    auto now_held = held_on_bounds(parameters, x, *gradient);
+    auto at = linearise(problem, unscaled(parameters, x));
+    if (!at) return tl::unexpected(in_context(at.error(), "the start of the fit"));
+    auto now_held = held_on_bounds(parameters, x, scaled_gradient(*at, parameters));
+    solution.at = std::move(*at);
     if (round > 0 && now_held == held) break;
     if (round == kRounds) {
       solution.termination = Termination::iteration_limit;
       break;
     }
     held = std::move(now_held);
-    const auto summary = solve_holding(problem, parameters, held, settings, x, log);
+    const auto summary = solve_holding(problem, parameters, held, settings, x);
     if (summary.termination_type == ceres::FAILURE) {
       return failure(ErrorCode::numerics,
                      "the fit could not go on: " +
@@ -201,9 +219,9 @@ Result<LeastSquaresSolution> minimise(const LeastSquaresProblem& problem,
     solution.iterations += static_cast<int>(summary.iterations.size());
   }
   solution.evaluations = log.evaluations;
+  solution.p = unscaled(parameters, x);
   for (std::size_t k = 0; k < x.size(); ++k) {
     const auto& parameter = parameters[k];
-    solution.p.push_back(x[k] * parameter.scale);
     solution.bound_active.push_back(x[k] - parameter.lower / parameter.scale < kAtBound ||
                                     parameter.upper / parameter.scale - x[k] < kAtBound);
   }

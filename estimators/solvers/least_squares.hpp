@@ -54,6 +54,12 @@ struct SolverSettings {
   Curvature curvature = Curvature::gauss_newton;  ///< Ipopt alone
 };
 
+/// Residuals and Jacobian of all blocks, one below the other.
+struct Linearisation {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;
+};
+
 struct LeastSquaresSolution {
   std::vector<double> p;
   double cost = kNotComputed;  ///< half the sum of squares
@@ -61,6 +67,7 @@ struct LeastSquaresSolution {
   int iterations = 0;
   long evaluations = 0;
   std::vector<bool> bound_active;
+  Linearisation at{};  ///< at p; of Ceres alone
 };
 
 /// Minimises half the sum of squares within bounds: Levenberg-Marquardt of Ceres, dense QR.
@@ -83,11 +90,7 @@ Error not_a_number(std::span<const double> p);
 /// Errors: numerics, with the parameters, where a block fails or a residual is no number.
 Result<double> half_sum_of_squares(const LeastSquaresProblem& problem, std::span<const double> p);
 
-/// Residuals and Jacobian of all blocks, one below the other, at p.
-struct Linearisation {
-  Eigen::VectorXd residual;
-  Eigen::MatrixXd jacobian;
-};
+/// At p.
 Result<Linearisation> linearise(const LeastSquaresProblem& problem, std::span<const double> p);
 
 }  // namespace flexspline::estimators

@@ -24,13 +24,13 @@ std::vector<OptionInfo> with_torsion_options(std::vector<OptionInfo> own) {
        .lower = 100,
        .upper = 1e6},
       {.name = "uncertainty",
-       .meaning = "where intervals of parameters come from; bands of f, g^-1 and h "
-                  "follow the bootstrap, else the covariance",
+       .meaning = "where intervals of parameters come from; bands within the class follow the "
+                  "bootstrap, else the covariance",
        .choices = {"covariance", "profile", "bootstrap_parametric", "bootstrap_block"}},
       {.name = "bands",
-       .meaning = "of f, g^-1 and h: within the fitted class; or of a penalised mixed model of "
-                  "eq. (4), which counts what no class follows (docs/fits.md)",
-       .choices = {"class", "mixed_model"}},
+       .meaning = "of f, g^-1 and h: of a penalised mixed model of eq. (4), which counts what no "
+                  "class follows (docs/fits.md); or within the fitted class",
+       .choices = {"mixed_model", "class"}},
       {.name = "replicates",
        .meaning = "refits of the bootstrap",
        .value = 200,

@@ -36,9 +36,8 @@ Result<TrajectoryFit> minimised(const LeastSquaresProblem& problem, LinearStart 
   const auto bounds = bounded_parameters(start.layout, records, start.p);
   auto solution = minimise(problem, bounds, settings);
   if (!solution) return tl::unexpected(solution.error());
-  auto linear = linearise(problem, solution->p);
-  if (!linear) return tl::unexpected(linear.error());
-  TrajectoryFit fit{std::move(start), std::move(*solution), {}, std::move(*linear), direction};
+  Linearisation linear = std::move(solution->at);
+  TrajectoryFit fit{std::move(start), std::move(*solution), {}, std::move(linear), direction};
   fit.at.p = fit.solution.p;
   fit.covariance = covariance_of(records, fit.linear, fit.solution.bound_active);
   return fit;

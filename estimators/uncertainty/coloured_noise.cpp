@@ -13,9 +13,10 @@ namespace {
 constexpr double kMostShare = 0.999;  // some white noise keeps the filter regular
 constexpr int kTimes = 16;            // of the first search
 constexpr int kShares = 10;
-constexpr double kRidge = 1e-12;  // of the information, where no series tells a parameter
-constexpr int kBits = 30;         // of ln sigma
-constexpr double kFinest = 1e-7;  // last step of the search, in ln time and share
+constexpr double kRidge = 1e-12;        // of the information, where no series tells a parameter
+constexpr int kBits = 30;               // of ln sigma
+constexpr double kSameInterval = 1e-9;  // relative: times are written with finitely many digits
+constexpr double kFinest = 1e-7;        // last step of the search, in ln time and share
 
 struct Spread {
   double shortest = std::numeric_limits<double>::infinity();
@@ -152,10 +153,18 @@ WhiteningFilter::WhiteningFilter(const ColouredNoise& noise, std::span<const dou
   const double stationary = noise.share * noise.sigma * noise.sigma;
   const double white = (1.0 - noise.share) * noise.sigma * noise.sigma;
   double variance = stationary;
+  double interval = 0.0;
+  double decay = 0.0;
+  steps_.reserve(times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     double transition = 1.0;
     if (k > 0) {
-      transition = noise.time > 0.0 ? std::exp(-(times[k] - times[k - 1]) / noise.time) : 0.0;
+      const double now = times[k] - times[k - 1];
+      if (std::abs(now - interval) > kSameInterval * now) {
+        interval = now;
+        decay = noise.time > 0.0 ? std::exp(-interval / noise.time) : 0.0;
+      }
+      transition = decay;
       variance = transition * transition * variance + stationary * (1.0 - transition * transition);
     }
     const double innovation = variance + white;
@@ -179,7 +188,15 @@ void WhiteningFilter::whiten(std::span<double> series, std::size_t stride) const
 
 double WhiteningFilter::log_variance() const {
   double sum = 0.0;
-  for (const auto& step : steps_) sum -= 2.0 * std::log(step.weight);
+  double weight = 1.0;
+  double log_weight = 0.0;
+  for (const auto& step : steps_) {
+    if (step.weight != weight) {
+      weight = step.weight;
+      log_weight = std::log(weight);
+    }
+    sum -= 2.0 * log_weight;
+  }
   return sum;
 }
 

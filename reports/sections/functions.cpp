@@ -85,33 +85,46 @@ Table convergence_table(const StudyView& view) {
   return table;
 }
 
+bool refuses_h(const Case& item) {
+  return item.band("h") == nullptr &&
+         (item.verdict == "weak" || item.verdict == "not_identifiable");
+}
+
+bool doubts_h(const Case& item) { return item.band("h") != nullptr && item.verdict == "weak"; }
+
 /// Each reason once, with the estimators it holds for.
 void add_reasons(const StudyView& view, Section& section) {
   std::set<std::string> told;
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {
       const Case* item = view.find(input, estimator);
-      if (item == nullptr || item->failed || item->band("h") != nullptr) continue;
-      const bool refused = item->verdict == "weak" || item->verdict == "not_identifiable";
-      if (!refused || item->says.empty() || !told.insert(estimator.id).second) continue;
-      section.add(
-          Paragraph{"No h from " + estimator.id + " on " + input.title + ": " + item->says});
+      if (item == nullptr || item->failed || item->says.empty()) continue;
+      if (!refuses_h(*item) && !doubts_h(*item)) continue;
+      const std::string whose =
+          (item->verdict == "weak" ? "Weak: h from " : "No h from ") + estimator.id;
+      if (!told.insert(whose).second) continue;
+      section.add(Paragraph{whose + " on " + input.title + ": " + item->says});
     }
   }
 }
 
 std::string verdict_of(const StudyView& view) {
-  std::size_t with_h = 0, done = 0, weak = 0;
+  std::size_t with_h = 0, done = 0, refused = 0, doubted = 0;
   for (const Case& item : view.artefacts().cases) {
     if (item.failed) continue;
     ++done;
     if (item.band("h") != nullptr) ++with_h;
-    if (item.verdict == "weak" || item.verdict == "not_identifiable") ++weak;
+    if (refuses_h(item)) ++refused;
+    if (doubts_h(item)) ++doubted;
   }
-  const std::string text = "Of " + std::to_string(done) + (done == 1 ? " fit, " : " fits, ") +
-                           std::to_string(with_h) + " would make h identifiable beside f and g⁻¹";
-  if (weak == 0) return text + ".";
-  return text + "; in " + std::to_string(weak) +
+  std::string text = "Of " + std::to_string(done) + (done == 1 ? " fit, " : " fits, ") +
+                     std::to_string(with_h) + " would make h identifiable beside f and g⁻¹";
+  if (doubted > 0) {
+    text +=
+        ", " + std::to_string(doubted) + " of them with a class of h that is not the recordings'";
+  }
+  if (refused == 0) return text + (doubted > 0 ? "; the reasons are below." : ".");
+  return text + "; in " + std::to_string(refused) +
          " the method or its recordings do not determine h, and the reasons are below.";
 }
 

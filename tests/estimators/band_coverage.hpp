@@ -119,6 +119,7 @@ inline BandScore score_of(const FunctionBand& band, const Shape& truth, double u
 inline CoverageSet coverage_set(const GearFamily& family, const NoiseColour& noise,
                                 unsigned replicate) {
   std::vector<unsigned> words(family.name.begin(), family.name.end());
+  words.insert(words.end(), noise.name.begin(), noise.name.end());
   words.push_back(replicate);
   std::seed_seq seeds(words.begin(), words.end());
   Draw draw(seeds);

@@ -1,5 +1,5 @@
-// How often 95 % intervals of f, g^-1 and h hold the truth, over seeded replicates of one
-// experiment.
+// How often 95 % bands of f, g^-1 and h within the fitted class hold a truth of it, over seeded
+// replicates of one experiment.
 #include <gtest/gtest.h>
 
 #include "gears.hpp"
@@ -45,7 +45,7 @@ TEST(Coverage, OfTheBandsOfFAndGAndH) {
       const auto estimate =
           fitted("trajectory_ceres",
                  four_loops(gear, {.per_cycle = 150, .noise = 0.005, .seed = 1000 + replicate}),
-                 {.numbers = {}, .words = {{"simulate", simulate}}});
+                 {.words = {{"simulate", simulate}, {"bands", "class"}}});
       ASSERT_TRUE(estimate) << estimate.error().message();
       for (const auto& band : estimate->bands) {
         if (band.function == "f") count(band, gear.f, kAmplitude, f);

@@ -1,9 +1,6 @@
-#include <functional>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "checksum.hpp"
 #include "flexspline/reports/diagnosis_view.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/reports/trial_view.hpp"
@@ -20,16 +17,6 @@ bool contains(const std::string& text, std::string_view part) {
 
 /// The page's text and tables, without the program that draws its figures.
 std::string markup_of(const std::string& html) { return html.substr(0, html.find("<script type")); }
-
-/// Changes an artefact and seals it again.
-void change(const StudyFolder& folder, const std::string& file,
-            const std::function<void(ordered_json&)>& edit) {
-  ordered_json artefact = ordered_json::parse(folder.text(file));
-  artefact.erase("sha256");
-  edit(artefact);
-  artefact["sha256"] = sha256_of(artefact.dump());
-  ASSERT_TRUE(write_file(folder.path() / file, artefact.dump()));
-}
 
 std::vector<std::string> section_ids(const StudyFolder& folder) {
   std::vector<std::string> ids;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "checksum.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "source_dir.hpp"
 
@@ -38,5 +41,15 @@ class StudyFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Changes an artefact and seals it again.
+inline void change(const StudyFolder& folder, const std::string& file,
+                   const std::function<void(nlohmann::ordered_json&)>& edit) {
+  auto artefact = nlohmann::ordered_json::parse(folder.text(file));
+  artefact.erase("sha256");
+  edit(artefact);
+  artefact["sha256"] = sha256_of(artefact.dump());
+  ASSERT_TRUE(write_file(folder.path() / file, artefact.dump()));
+}
 
 }  // namespace flexspline::reports

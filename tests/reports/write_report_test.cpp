@@ -99,6 +99,19 @@ TEST(WriteReport, RefusesHWithTheEstimatorsReason) {
                        "No h from trajectory_one_loop on h = 1: one loop cannot tell"));
 }
 
+TEST(WriteReport, CallsAWeakHWeakAndNotRefused) {
+  const StudyFolder study;
+  change(study, "cases/h_even--trajectory--r0.json", [](auto& one) {
+    one["estimate"]["identifiability"]["verdict"] = "weak";
+    one["estimate"]["identifiability"]["says"] = "the class moves h";
+  });
+  ASSERT_TRUE(write_report(study.path()));
+  const std::string html = study.text("report/index.html");
+  EXPECT_TRUE(contains(html, "Weak: h from trajectory on h even: the class moves h"));
+  EXPECT_FALSE(contains(html, "No h from trajectory on"));
+  EXPECT_TRUE(contains(html, "1 of them with a class of h that is not the recordings"));
+}
+
 struct Part {
   const char* file;
   std::vector<const char*> lost;  ///< sections that cannot be drawn without it
