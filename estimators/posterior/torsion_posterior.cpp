@@ -23,8 +23,9 @@ constexpr double kFirstOfH = 1.0;         // h bends where f and g^-1 leave it t
 constexpr double kFirstOfFreeH = 1e-4;    // or h bends first
 constexpr double kFurthest = 0.5;         // of ln h in one step
 constexpr int kSteps = 25;                // linearisations
-constexpr int kStepsOfMisfit = 8;         // those after the noise was taken from what is left
+constexpr int kStepsOfMisfit = 4;         // after the noise was taken from a misfit
 constexpr int kRounds = 3;                // of the precisions, each
+constexpr double kMisses = 1.5;           // noises left by a law that is not looked at closely
 constexpr double kSettled = 0.05;         // standard deviations that a step may still move by
 constexpr double kRefuted = 4.0;          // standard deviations of a sum of squares
 
@@ -231,8 +232,9 @@ Normal settle(TorsionPosterior& model, const TorsionRegression& all,
     model.law = restricted_likelihood(normal.information, normal.gradient, model.groups, kRounds);
     const Eigen::VectorXd moved = model.law.mean - c;
     c += moved * shortened(model, moved);
-    const double close = kSettled * std::max(1.0, left_in_noises(normal, model.law.mean));
-    if (step >= steps || largest_move(model, moved) < close) return normal;
+    const double left = left_in_noises(normal, model.law.mean);
+    const bool enough = step >= (left > kMisses ? steps / 2 : steps);
+    if (enough || largest_move(model, moved) < kSettled * std::max(1.0, left)) return normal;
   }
 }
 
@@ -278,7 +280,8 @@ TorsionPosterior concluded(const TorsionPosterior& empty, const TorsionRegressio
     records[r].noise = noise_of(records[r], {raw.begin(), raw.end()});
     noise_taken = true;
   }
-  if (noise_taken) settle(best.model, all, records, kStepsOfMisfit, best.c);
+  if (noise_taken)
+    settle(best.model, all, records, best.misses() ? kStepsOfMisfit : kSteps, best.c);
   best.model.law.covariance = unconditional_covariance(best.model.law, best.model.groups);
   return std::move(best.model);
 }
