@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/core/remembered.hpp"
 #include "flexspline/core/signals.hpp"
-#include "signals/remembered.hpp"
 #include "signals/smoothing.hpp"
 
 namespace flexspline {
@@ -159,7 +159,7 @@ Result<Reconstruction> reconstruct(const TorsionRecord& record) {
   }
   // Every estimator and every comparison of a study asks for the same records again.
   static Remembered<Reconstruction> remembered(kRememberedBytes);
-  return *remembered.of(record, [&] { return reconstruct_moving(record); });
+  return *remembered.of(content_of(record), [&] { return reconstruct_moving(record); });
 }
 
 }  // namespace flexspline

@@ -9,6 +9,7 @@
 namespace flexspline::estimators {
 namespace {
 
+constexpr std::size_t kRememberedBytes = std::size_t{8} << 20U;
 constexpr double kMisses = 1.5;  // residual over noise from which a model misses something
 
 // f need not pass the origin of a joint that travels, and a specimen's zero is where it was
@@ -54,10 +55,8 @@ Result<TrajectoryFit> fitted(const std::vector<PreparedRecord>& records, FreeTer
   return fit_torque(all, records, settings.solver);
 }
 
-}  // namespace
-
-Result<StaticFit> fit_static(const std::vector<TorsionRecord>& records,
-                             const StaticFitSettings& settings) {
+Result<StaticFit> made(const std::vector<TorsionRecord>& records, const StaticFitSettings& settings,
+                       const Content& content) {
   if (records.empty()) {
     return failure(ErrorCode::bad_data, "there is no recording to train on",
                    "mark one with split = \"train\"");
@@ -89,7 +88,35 @@ Result<StaticFit> fit_static(const std::vector<TorsionRecord>& records,
     fit = fitted(*prepared, base, *richest, decision->free, settings);
     if (!fit) return tl::unexpected(fit.error());
   }
-  return StaticFit{std::move(*prepared), std::move(*decision), std::move(*fit), misses};
+  return StaticFit{std::move(*prepared), std::move(*decision), std::move(*fit), content, misses};
+}
+
+// Names stand in messages and models, so that they count, too.
+Content content_of(const std::vector<TorsionRecord>& records, const StaticFitSettings& settings) {
+  const SolverSettings& solver = settings.solver;
+  const AllowedTerms& allowed = settings.allowed;
+  Content all{{static_cast<double>(settings.samples), static_cast<double>(settings.intervals),
+               allowed.h ? 1.0 : 0.0, allowed.inertia ? 1.0 : 0.0, allowed.delay ? 1.0 : 0.0,
+               static_cast<double>(solver.max_iterations), solver.function_tolerance,
+               solver.parameter_tolerance, solver.gradient_tolerance, solver.trust_radius,
+               solver.damping_floor}};
+  for (const auto& record : records) {
+    all.add(flexspline::content_of(record).numbers);
+    all.add(std::vector<double>(record.id.begin(), record.id.end()));
+    all.add(std::vector<double>(record.valid.begin(), record.valid.end()));
+    all.numbers.insert(all.numbers.end(),
+                       {record.linear ? 1.0 : 0.0, record.amplitude.value_or(kNotComputed)});
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<StaticFit> fit_static(const std::vector<TorsionRecord>& records,
+                             const StaticFitSettings& settings) {
+  static Remembered<Result<StaticFit>> remembered(kRememberedBytes);
+  const Content content = content_of(records, settings);
+  return *remembered.of(content, [&] { return made(records, settings, content); });
 }
 
 }  // namespace flexspline::estimators

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "flexspline/core/remembered.hpp"
 #include "torsion/free_terms.hpp"
 #include "torsion/trajectory_fit.hpp"
 
@@ -20,12 +21,13 @@ struct StaticFit {
   std::vector<PreparedRecord> records;  ///< with the noise that the fit weighed by
   TermDecision decision;
   TrajectoryFit fit;
-  bool misses;  ///< leaves more than 1.5 times the noise of the recordings
+  Content content;  ///< what all of this depends on
+  bool misses;      ///< leaves more than 1.5 times the noise of the recordings
 };
 
 /// Decides which terms are free, chooses the class of f and g^-1 unless intervals are given, and
 /// fits. Where the fit misses more than the noise, the misfit counts into the noise and it is
-/// repeated.
+/// repeated. Made once for all estimators of a process that ask for the same.
 /// Errors: bad_data where no recording is given or the motion passes too little of its range both
 /// ways; numerics where a recording cannot be reconstructed or has fewer samples than unknowns.
 Result<StaticFit> fit_static(const std::vector<TorsionRecord>& records,

@@ -8,6 +8,8 @@
 namespace flexspline::estimators {
 namespace {
 
+constexpr std::size_t kRememberedBytes = std::size_t{8} << 20U;  // of contents
+
 std::vector<ParameterEstimate> parameters_of(const TrajectoryFit& fit, bool angular) {
   const TorsionLayout& layout = fit.at.layout;
   std::vector<ParameterEstimate> list;
@@ -40,8 +42,8 @@ void take(const Intervals& found, Estimate& estimate) {
 
 /// Bands and verdict by what the recordings say without the classes of the laws. Not for motions
 /// that travel, zeros of recordings, or draws of a bootstrap.
-void judge(const std::vector<PreparedRecord>& records, const TrajectoryFit& fit, bool with_h,
-           Estimate& estimate) {
+void judge(const StaticFit& begun, const TrajectoryFit& fit, Estimate& estimate) {
+  const auto& records = begun.records;
   const TorsionLayout& layout = fit.at.layout;
   if (records.front().record.travels || layout.free_terms().zeros) {
     estimate.notes.emplace_back(
@@ -49,7 +51,13 @@ void judge(const std::vector<PreparedRecord>& records, const TrajectoryFit& fit,
         "of recordings");
     return;
   }
-  const auto posterior = torsion_posterior(records, layout, fit.solution.p, with_h);
+  // Where trajectories are simulated from the static fit, both have the same.
+  static Remembered<Result<TorsionPosterior>> remembered(kRememberedBytes);
+  const auto found = remembered.of(begun.content, [&] {
+    return torsion_posterior(records, begun.fit.at.layout, begun.fit.solution.p,
+                             begun.decision.free.h > 0);
+  });
+  const Result<TorsionPosterior>& posterior = *found;
   if (!posterior) {
     estimate.notes.push_back("bands within the class: " + posterior.error().message());
     return;
@@ -91,7 +99,7 @@ Result<Estimate> torsion_estimate(std::string estimator, TrajectoryFit fit, cons
   estimate.notes = decision.notes;
   estimate.evaluations = fit.solution.evaluations;
   take(*found, estimate);
-  if (settings.mixed_model_bands) judge(records, fit, decision.free.h > 0, estimate);
+  if (settings.mixed_model_bands) judge(begun, fit, estimate);
   return estimate;
 }
 

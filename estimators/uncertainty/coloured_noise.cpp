@@ -13,8 +13,9 @@ namespace {
 constexpr double kMostShare = 0.999;  // some white noise keeps the filter regular
 constexpr int kTimes = 16;            // of the first search
 constexpr int kShares = 10;
-constexpr double kRidge = 1e-12;        // of the information, where no series tells a parameter
-constexpr int kBits = 30;               // of ln sigma
+constexpr double kRidge = 1e-12;  // of the information, where no series tells a parameter
+constexpr int kBits = 30;         // of ln sigma
+constexpr double kHopeful = 0.5;  // of what a colour has to gain, at a point of the first search
 constexpr double kSameInterval = 1e-9;  // relative: times are written with finitely many digits
 constexpr double kFinest = 1e-7;        // last step of the search, in ln time and share
 
@@ -222,8 +223,10 @@ ColouredNoise estimate_noise(std::span<const TimedSeries> series, const OtherInf
   if (spread.count == 0) return white;
   const double flat = deviance(series, other, 0.0, 0.0, white.sigma);
   if (!(spread.longest > 0.0) || !std::isfinite(flat)) return white;
-  const Point best = refined(series, other, coarse_search(series, other, spread));
   const double asked = 2.0 * std::log(static_cast<double>(spread.count));
+  const Point coarse = coarse_search(series, other, spread);
+  if (!(coarse.deviance + kHopeful * asked < flat)) return white;
+  const Point best = refined(series, other, coarse);
   if (!(best.deviance + asked < flat)) return white;
   ColouredNoise noise{1.0, best.share, std::exp(best.log_time)};
   deviance(series, other, noise.share, noise.time, noise.sigma);

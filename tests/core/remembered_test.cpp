@@ -1,6 +1,6 @@
 // The memory behind reconstruct(): what is asked for again is not computed again, and nothing else
 // is taken for it.
-#include "signals/remembered.hpp"
+#include "flexspline/core/remembered.hpp"
 
 #include <atomic>
 #include <limits>
@@ -26,7 +26,7 @@ TorsionRecord record_of(double first) {
 class RememberedCount : public testing::Test {
  protected:
   int ask(const TorsionRecord& record) {
-    return *remembered_.of(record, [&] { return ++computed_; });
+    return *remembered_.of(content_of(record), [&] { return ++computed_; });
   }
 
   std::atomic<int> computed_ = 0;
@@ -68,9 +68,9 @@ TEST_F(RememberedCount, ComputesOnceForAllThatWaitForIt) {
 
 TEST(Remembered, ForgetsTheOldestWhenFull) {
   int computed = 0;
-  Remembered<int> two(2 * RecordContent(record_of(1.0)).bytes());
+  Remembered<int> two(2 * content_of(record_of(1.0)).bytes());
   const auto ask = [&](double first) {
-    return *two.of(record_of(first), [&] { return ++computed; });
+    return *two.of(content_of(record_of(first)), [&] { return ++computed; });
   };
   EXPECT_EQ(ask(1.0), 1);
   EXPECT_EQ(ask(2.0), 2);
@@ -82,7 +82,8 @@ TEST(Remembered, ForgetsTheOldestWhenFull) {
 TEST(Remembered, LeavesOutWhatIsLargerThanAllOfIt) {
   int computed = 0;
   Remembered<int> none(1);
-  for (int i = 1; i < 3; ++i) EXPECT_EQ(*none.of(record_of(1.0), [&] { return ++computed; }), i);
+  for (int i = 1; i < 3; ++i)
+    EXPECT_EQ(*none.of(content_of(record_of(1.0)), [&] { return ++computed; }), i);
 }
 
 TEST(Remembered, AReconstructionComesBackBitForBit) {

@@ -6,44 +6,39 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "flexspline/core/recording.hpp"
 
 namespace flexspline {
 
-/// What the smoothing of a record depends on: not its name nor what it is used for.
-struct RecordContent {
-  explicit RecordContent(const TorsionRecord& record)
-      : time(record.time),
-        motion(record.motion),
-        effort(record.effort),
-        frequency_hz(record.frequency_hz.value_or(0.0)),
-        travels(record.travels) {}
+/// What a value depends on, as numbers. Bit for bit: a NaN equals itself.
+struct Content {
+  std::vector<double> numbers;
 
-  /// Bit for bit: a NaN equals itself.
-  bool same_as(const RecordContent& other) const;
+  /// Adds a series, and where it ends.
+  void add(std::span<const double> series);
+  bool same_as(const Content& other) const;
   std::uint64_t hash() const;
   std::size_t bytes() const;
-
-  std::vector<double> time;
-  std::vector<double> motion;
-  std::vector<double> effort;
-  double frequency_hz;
-  bool travels;
 };
 
-/// Computes a value of a record once, whoever asks first, however many records hold the same
-/// samples; the oldest are forgotten when the records together are larger than `most_bytes`.
+/// What the smoothing of a record depends on: not its name nor what it is used for.
+Content content_of(const TorsionRecord& record);
+
+/// Computes a value once, whoever asks first, for all that depend on the same content; the oldest
+/// are forgotten when the contents together are larger than `most_bytes`.
 template <class Value>
 class Remembered {
  public:
   explicit Remembered(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
   template <class Compute>
-  std::shared_ptr<const Value> of(const TorsionRecord& record, const Compute& compute) {
+  std::shared_ptr<const Value> of(Content content, const Compute& compute) {
     std::promise<std::shared_ptr<const Value>> promise;
-    const auto [entry, mine] = find(RecordContent(record), promise);
+    const auto [entry, mine] = find(std::move(content), promise);
     if (!entry) return std::make_shared<const Value>(compute());
     if (mine) keep(promise, compute);
     return entry->value.get();
@@ -51,7 +46,7 @@ class Remembered {
 
  private:
   struct Entry {
-    RecordContent content;
+    Content content;
     std::shared_future<std::shared_ptr<const Value>> value;
   };
   using Promise = std::promise<std::shared_ptr<const Value>>;
@@ -66,8 +61,8 @@ class Remembered {
   }
 
   /// The entry of this content, and whether the caller has to keep its promise. None where another
-  /// content has the same hash, or a record is larger than everything that is remembered.
-  std::pair<std::shared_ptr<const Entry>, bool> find(RecordContent content, Promise& promise) {
+  /// content has the same hash, or one is larger than everything that is remembered.
+  std::pair<std::shared_ptr<const Entry>, bool> find(Content content, Promise& promise) {
     const std::uint64_t hash = content.hash();
     const std::scoped_lock lock(mutex_);
     const auto found = entries_.find(hash);
