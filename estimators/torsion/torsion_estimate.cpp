@@ -41,7 +41,7 @@ void take(const Intervals& found, Estimate& estimate) {
 }
 
 /// Bands and verdict by what the recordings say without the classes of the laws. Not for motions
-/// that travel, zeros of recordings, or draws of a bootstrap.
+/// that travel, nor for zeros of recordings.
 void judge(const StaticFit& begun, const TrajectoryFit& fit, Estimate& estimate) {
   const auto& records = begun.records;
   const TorsionLayout& layout = fit.at.layout;
