@@ -25,9 +25,10 @@ constexpr double kFurthest = 0.5;         // of ln h in one step
 constexpr int kSteps = 25;                // linearisations
 constexpr int kStepsOfMisfit = 4;         // after the noise was taken from a misfit
 constexpr int kRounds = 3;                // of the precisions, each
-constexpr double kMisses = 1.5;           // noises left by a law that is not looked at closely
-constexpr double kSettled = 0.05;         // standard deviations that a step may still move by
-constexpr double kRefuted = 4.0;          // standard deviations of a sum of squares
+constexpr double kResolved = 2e-4;  // of the largest torque: less noise than the splines' own error
+constexpr double kMisses = 1.5;     // noises left by a law that is not looked at closely
+constexpr double kSettled = 0.05;   // standard deviations that a step may still move by
+constexpr double kRefuted = 4.0;    // standard deviations of a sum of squares
 
 constexpr int kFamilyOfH = 3;
 
@@ -305,6 +306,8 @@ Result<TorsionPosterior> torsion_posterior(const std::vector<PreparedRecord>& pr
                                            bool with_h) {
   std::vector<FoldedRecord> records;
   for (const auto& one : prepared) records.push_back(folded(one));
+  const double resolved = kResolved * ranges_of(prepared, false).effort;
+  for (auto& one : records) one.noise.sigma = std::max(one.noise.sigma, resolved);
   const auto laws = rich_laws(prepared, records, layout, p);
   if (!laws) return tl::unexpected(laws.error());
   const RegressionColumns at = regression_columns(*laws, records, with_h);
