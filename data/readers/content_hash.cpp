@@ -69,6 +69,7 @@ std::string content_hash(const RecordingSet& set) {
     add_text(sum, name);
     add_number(sum, value);
   }
+  for (const std::string& code : set.accepted) add_text(sum, code);
   std::vector<const Recording*> sorted;
   for (const Recording& recording : set.recordings) sorted.push_back(&recording);
   std::ranges::sort(sorted, {}, [](const Recording* recording) { return recording->id; });

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "flexspline/core/nearest_name.hpp"
+#include "flexspline/data/sanity.hpp"
 #include "readers/description_parts.hpp"
 #include "readers/rig_channels.hpp"
 
@@ -14,8 +15,9 @@ namespace flexspline::data {
 namespace {
 
 constexpr std::string_view kSchema = "flexspline-dataset/1";
-constexpr std::array<std::string_view, 9> kKeys = {
-    "schema", "name", "rig", "license", "source", "note", "constants", "channels", "recording"};
+constexpr std::array<std::string_view, 10> kKeys = {"schema",   "name",     "rig",    "license",
+                                                    "source",   "note",     "accept", "constants",
+                                                    "channels", "recording"};
 /// A constant that has a meaning, and what it may be: positive, and no more than this.
 struct KnownConstant {
   std::string_view name;
@@ -125,6 +127,23 @@ std::string parse_license(TomlReader& reader, const toml::table& root,
   return reader.text(root, "license").value_or("");
 }
 
+std::vector<std::string> parse_accepted(TomlReader& reader, const toml::table& root) {
+  std::vector<std::string> accepted;
+  const toml::array* list = reader.list(root, "accept");
+  if (list == nullptr) return accepted;
+  for (const toml::node& node : *list) {
+    const auto code = node.value<std::string>();
+    if (code && is_sanity_code(*code)) {
+      accepted.push_back(*code);
+    } else {
+      reader.refuse(node.source(),
+                    fmt::format("accept: there is no finding '{}'", code.value_or("(no text)")),
+                    sanity_code_suggestion(code.value_or("")));
+    }
+  }
+  return accepted;
+}
+
 void read_recordings(TomlReader& reader, const toml::table& root,
                      const std::filesystem::path& folder, Description& description) {
   const bool linear = std::ranges::find(description.channels, Quantity::displacement,
@@ -151,6 +170,7 @@ Description parse_description(std::string_view text, const std::filesystem::path
   set.license = parse_license(reader, *root, reading.notes);
   set.source = reader.text(*root, "source").value_or("");
   set.note = reader.text(*root, "note").value_or("");
+  set.accepted = parse_accepted(reader, *root);
   if (const toml::table* constants = reader.subtable(*root, "constants")) {
     set.constants = parse_constants(reader, *constants, reading.notes);
   }

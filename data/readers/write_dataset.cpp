@@ -89,12 +89,21 @@ std::string entry_text(const Recording& recording, const std::string& file,
   return text;
 }
 
+std::string accepted_text(const RecordingSet& set) {
+  if (set.accepted.empty()) return {};
+  std::string list;
+  for (const std::string& code : set.accepted)
+    list += (list.empty() ? "" : ", ") + toml_quoted(code);
+  return fmt::format("accept = [{}]\n", list);
+}
+
 std::string head_text(const RecordingSet& set, const std::vector<Column>& columns) {
   std::string text = fmt::format("schema = \"flexspline-dataset/1\"\nname = {}\nrig = \"{}\"\n",
                                  toml_quoted(set.name), name_of(set.rig));
   if (!set.license.empty()) text += fmt::format("license = {}\n", toml_quoted(set.license));
   if (!set.source.empty()) text += fmt::format("source = {}\n", toml_quoted(set.source));
   if (!set.note.empty()) text += fmt::format("note = {}\n", toml_quoted(set.note));
+  text += accepted_text(set);
   text += "\n[constants]\n";
   for (const auto& [name, value] : set.constants) {
     text += fmt::format("{} = {}\n", toml_quoted(name), toml_number(value));

@@ -14,6 +14,7 @@
 #include "flexspline/data/bench.hpp"
 #include "flexspline/data/exporter.hpp"
 #include "flexspline/data/rig_channels.hpp"
+#include "flexspline/data/table_reader.hpp"
 #include "flexspline/estimators/method.hpp"
 #include "flexspline/studies/kind.hpp"
 #include "flexspline/studies/metric.hpp"
@@ -140,6 +141,14 @@ ordered_json list_exporters() {
   return list;
 }
 
+ordered_json list_readers() {
+  ordered_json list = ordered_json::array();
+  for (const data::TableReaderRow& row : data::table_readers()) {
+    list.push_back({{"id", row.id}, {"says", row.says}, {"own_process", row.by_others}});
+  }
+  return list;
+}
+
 ordered_json list_commands() {
   ordered_json list = ordered_json::array();
   for (const CommandRow& row : commands()) {
@@ -164,10 +173,11 @@ struct Catalogue {
   ordered_json (*rows)();
 };
 
-constexpr Catalogue kCatalogues[] = {
-    {"effects", list_effects},       {"laws", list_laws},           {"rigs", list_rigs},
-    {"estimators", list_estimators}, {"kinds", list_kinds},         {"metrics", list_metrics},
-    {"truths", list_truths},         {"exporters", list_exporters}, {"commands", list_commands}};
+constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_laws},
+                                     {"rigs", list_rigs},       {"estimators", list_estimators},
+                                     {"kinds", list_kinds},     {"metrics", list_metrics},
+                                     {"truths", list_truths},   {"exporters", list_exporters},
+                                     {"readers", list_readers}, {"commands", list_commands}};
 
 Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder, bool force,
                              Console& console) {
@@ -206,10 +216,10 @@ CommandRow describe_list() {
   return {.id = "list",
           .summary =
               "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths, exporters, "
-              "commands",
+              "readers, commands",
           .arguments = {{.name = "catalogue",
                          .meaning = "effects, laws, rigs, estimators, kinds, metrics, truths, "
-                                    "exporters or commands",
+                                    "exporters, readers or commands",
                          .value = "CATALOGUE",
                          .required = true},
                         {.name = "--pages",

@@ -1,0 +1,351 @@
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "flexspline/core/nearest_name.hpp"
+#include "flexspline/core/rig.hpp"
+#include "flexspline/data/checksum.hpp"
+#include "flexspline/data/dataset.hpp"
+#include "flexspline/data/import.hpp"
+#include "flexspline/data/sanity.hpp"
+#include "output_folder.hpp"
+
+namespace flexspline::app {
+namespace {
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> refused(const std::string& problem, const std::string& remedy) {
+  return failure(ErrorCode::usage, problem, remedy);
+}
+
+Result<double> positive(const Arguments& arguments, const std::string& name) {
+  const std::string text = arguments.text(name);
+  double value = 0.0;
+  const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code == std::errc{} && stop == text.data() + text.size() && value > 0.0 && value < 1e12) {
+    return value;
+  }
+  return refused(fmt::format("--{} is '{}'", name, text), "give a positive number");
+}
+
+Result<Rig> rig_of(const std::string& name) {
+  if (const auto rig = find_rig(name)) return *rig;
+  std::vector<std::string_view> names;
+  for (const RigRow& row : rigs()) names.push_back(row.id);
+  return refused(fmt::format("--rig: there is no rig '{}'", name), suggestion(name, names));
+}
+
+/// One character, or a word for one that a shell swallows.
+Result<char> letter(const Arguments& arguments, const std::string& name, std::string_view allowed) {
+  std::string text = arguments.text(name);
+  if (text == "tab") text = "\t";
+  if (text == "blank") text = " ";
+  if (text.size() == 1 && allowed.find(text[0]) != allowed.npos) return text[0];
+  return refused(fmt::format("--{} is '{}'", name, text),
+                 name == "decimal" ? "give . or ," : "give ; , | tab or blank");
+}
+
+Result<void> take_text_form(const Arguments& arguments, data::TextForm& form) {
+  if (arguments.has("delimiter")) {
+    const auto mark = letter(arguments, "delimiter", ";,|\t ");
+    if (!mark) return tl::unexpected(mark.error());
+    form.delimiter = *mark;
+  }
+  if (arguments.has("decimal")) {
+    const auto mark = letter(arguments, "decimal", ".,");
+    if (!mark) return tl::unexpected(mark.error());
+    form.decimal = *mark;
+  }
+  const auto line = arguments.integer("header-line", 0, 1, 100000);
+  if (!line) return tl::unexpected(line.error());
+  form.header_line = arguments.has("header-line") ? static_cast<int>(*line) : 0;
+  return {};
+}
+
+Result<void> take_constants(const Arguments& arguments, std::map<std::string, double>& constants) {
+  static constexpr std::pair<const char*, const char*> kOptions[] = {
+      {"ratio", "gear_ratio"},
+      {"motor-inertia", "motor_inertia_kgm2"},
+      {"load-inertia", "load_inertia_kgm2"}};
+  for (const auto& [option, key] : kOptions) {
+    if (!arguments.has(option)) continue;
+    const auto value = positive(arguments, option);
+    if (!value) return tl::unexpected(value.error());
+    constants[key] = *value;
+  }
+  return {};
+}
+
+Result<data::ImportWish> wish_of(const Arguments& arguments) {
+  data::ImportWish wish;
+  for (const std::string& file : arguments.texts("files")) wish.files.emplace_back(file);
+  if (arguments.has("rig")) {
+    const auto rig = rig_of(arguments.text("rig"));
+    if (!rig) return tl::unexpected(rig.error());
+    wish.rig = *rig;
+  }
+  if (auto taken = take_constants(arguments, wish.constants); !taken)
+    return tl::unexpected(taken.error());
+  if (arguments.has("split")) {
+    const auto seconds = positive(arguments, "split");
+    if (!seconds) return tl::unexpected(seconds.error());
+    wish.split_s = *seconds;
+  }
+  for (const std::string& text : arguments.texts("map")) {
+    const auto choice = data::parse_column_choice(text);
+    if (!choice) return tl::unexpected(choice.error());
+    wish.choices.push_back(*choice);
+  }
+  for (const std::string& code : arguments.texts("accept")) {
+    if (!data::is_sanity_code(code)) {
+      return refused(fmt::format("--accept: there is no finding '{}'", code),
+                     data::sanity_code_suggestion(code));
+    }
+    wish.accept.push_back(code);
+  }
+  wish.tables = arguments.texts("table");
+  const fs::path out = fs::path(arguments.text("out")) / "";
+  wish.name = arguments.text("name", out.lexically_normal().parent_path().filename().string());
+  wish.license = arguments.text("license");
+  if (auto taken = take_text_form(arguments, wish.request.text); !taken)
+    return tl::unexpected(taken.error());
+  return wish;
+}
+
+ordered_json plan_json(const data::ImportPlan& plan) {
+  ordered_json inferred = ordered_json::array();
+  for (const data::Inference& one : plan.inferred) {
+    inferred.push_back({{"what", one.what},
+                        {"certainty", data::name_of(one.certainty)},
+                        {"evidence", one.evidence}});
+  }
+  ordered_json open = ordered_json::array();
+  for (const data::OpenQuestion& one : plan.open) {
+    open.push_back({{"problem", one.problem}, {"remedy", one.remedy}});
+  }
+  return {{"rig", plan.rig ? ordered_json(name_of(*plan.rig)) : ordered_json(nullptr)},
+          {"constants", plan.constants},
+          {"inferred", inferred},
+          {"notes", plan.notes},
+          {"open", open}};
+}
+
+void print_plan(const data::ImportPlan& plan, Console& console) {
+  for (const data::Inference& one : plan.inferred) {
+    console.result(
+        fmt::format("{}  ({}: {})", one.what, data::name_of(one.certainty), one.evidence));
+  }
+  for (const std::string& note : plan.notes) console.result("note: " + note);
+  for (const data::OpenQuestion& one : plan.open) {
+    console.result(fmt::format("open: {}; {}", one.problem, one.remedy));
+  }
+}
+
+/// Of every file, by its content: the same files under other names are the same input.
+Result<std::string> sha256_of(const std::vector<fs::path>& files) {
+  data::Sha256 sum;
+  std::vector<char> piece(std::size_t{1} << 20U);
+  for (const fs::path& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) ||
+           stream.gcount() > 0) {
+      sum.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
+    }
+    if (stream.bad() || !stream.eof()) {
+      return failure(ErrorCode::input_missing, "cannot read " + file.string());
+    }
+  }
+  return sum.hex();
+}
+
+/// What a person mended in the folder is theirs.
+Result<void> refuse_mended(const fs::path& folder) {
+  const auto earlier = data::read_manifest(folder);
+  if (!earlier || !earlier->finished) return {};
+  for (const data::ChangedFile& one : data::changed_files(folder, *earlier)) {
+    if (one.missing) continue;
+    return failure(
+        ErrorCode::cannot_write,
+        fmt::format("{} was changed since it was imported", (folder / one.file).string()),
+        "import to another folder, or add --force to lose the change");
+  }
+  return {};
+}
+
+/// Recordings of an earlier import that this one does not write.
+void remove_left_over(const fs::path& folder, const std::vector<std::string>& written) {
+  const auto earlier = data::read_manifest(folder);
+  if (!earlier) return;
+  for (const auto& [name, sum] : earlier->files) {
+    if (std::ranges::find(written, name) != written.end() || !name.ends_with(".csv")) continue;
+    std::error_code ignored;
+    fs::remove(folder / name, ignored);
+  }
+}
+
+bool may_write(const data::ImportPlan& plan, const Arguments& arguments, const Console& console) {
+  const bool open_guess = std::ranges::any_of(plan.inferred, [](const data::Inference& one) {
+    return one.certainty == data::Certainty::likely;
+  });
+  if (!open_guess || arguments.has("yes") || console.json || isatty(STDIN_FILENO) == 0 ||
+      isatty(STDERR_FILENO) == 0) {
+    return true;
+  }
+  std::cerr << "Some of this is likely, not sure. Write it? [Y/n] " << std::flush;
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer.empty() || answer[0] == 'y' || answer[0] == 'Y';
+}
+
+/// What read_dataset and the sanity checks find in what was written.
+struct Looked {
+  std::vector<std::string> errors;
+  std::vector<std::string> notes;
+};
+
+Looked look_at(const fs::path& folder) {
+  Looked looked;
+  const data::DatasetReading reading = data::read_dataset(folder);
+  for (const auto& one : reading.errors) looked.errors.push_back(one.message());
+  for (const auto& one : reading.notes) looked.notes.push_back(one.message());
+  if (!reading.set) return looked;
+  for (const data::SanityFinding& one : data::sanity_of(*reading.set)) {
+    const bool error = one.severity == data::Severity::error;
+    std::string message = one.message();
+    if (error) message += fmt::format("; if it is no mistake: --accept {}", one.check);
+    (error ? looked.errors : looked.notes).push_back(std::move(message));
+  }
+  return looked;
+}
+
+ExitCode report(const fs::path& folder, const data::ImportPlan& plan,
+                const data::Imported& imported, Console& console) {
+  const Looked looked = look_at(folder);
+  const bool sound = looked.errors.empty();
+  if (console.json) {
+    ordered_json said = plan_json(plan);
+    said["dataset"] = folder.string();
+    said["recordings"] = imported.recordings;
+    said["done"] = imported.notes;
+    said["errors"] = looked.errors;
+    said["findings"] = looked.notes;
+    console.result(said.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+    return sound ? kDone : static_cast<ExitCode>(ErrorCode::bad_data);
+  }
+  for (const std::string& note : imported.notes) console.result("note: " + note);
+  for (const std::string& note : looked.notes) console.result("note: " + note);
+  for (const std::string& error : looked.errors) console.result("error: " + error);
+  console.result(
+      fmt::format("{}: {} recording{}{}", folder.string(), imported.recordings.size(),
+                  imported.recordings.size() == 1 ? "" : "s",
+                  sound ? "" : "; no physics is read out of it until the errors are mended"));
+  return sound ? kDone : static_cast<ExitCode>(ErrorCode::bad_data);
+}
+
+Result<ExitCode> write(const data::ImportPlan& plan, const Arguments& arguments, Console& console) {
+  const fs::path folder = arguments.text("out");
+  const auto sum = sha256_of(plan.wish.files);
+  if (!sum) return tl::unexpected(sum.error());
+  OutputWish wish{"import",
+                  folder,
+                  plan.wish.files[0].filename().string(),
+                  *sum,
+                  plan.wish.files[0],
+                  plan.wish.files,
+                  arguments.has("force")};
+  auto output = OutputFolder::claim(wish);
+  if (!output) return tl::unexpected(output.error());
+  if (!wish.force) {
+    if (auto kept = refuse_mended(folder); !kept) return tl::unexpected(kept.error());
+  }
+  const auto imported = data::write_import(plan, folder);
+  if (!imported) return tl::unexpected(imported.error());
+  remove_left_over(folder, imported->files);
+  if (auto done = output->finish(imported->files); !done) return tl::unexpected(done.error());
+  return report(folder, plan, *imported, console);
+}
+
+Result<ExitCode> run(const Arguments& arguments, Console& console) {
+  const auto wish = wish_of(arguments);
+  if (!wish) return tl::unexpected(wish.error());
+  const auto plan = data::plan_import(*wish);
+  if (!plan) return tl::unexpected(plan.error());
+  const bool planned_only = arguments.has("dry-run") || !plan->open.empty();
+  if (!console.json) print_plan(*plan, console);
+  if (console.json && planned_only) {
+    console.result(plan_json(*plan).dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  }
+  if (!plan->open.empty()) {
+    console.error(fmt::format("nothing is written: {} question{} above", plan->open.size(),
+                              plan->open.size() == 1 ? " is open" : "s are open,"));
+    return static_cast<ExitCode>(ErrorCode::bad_data);
+  }
+  if (planned_only) return kDone;
+  if (!may_write(*plan, arguments, console)) return kSomethingFailed;
+  return write(*plan, arguments, console);
+}
+
+}  // namespace
+
+CommandRow describe_import() {
+  return {
+      .id = "import",
+      .summary =
+          "Makes a data set from files as benches write them: says what it found out, how sure "
+          "it is, and what it cannot know",
+      .arguments =
+          {{.name = "files",
+            .meaning = "files of a bench; see flexspline list readers",
+            .value = "FILE",
+            .required = true,
+            .repeats = true},
+           {.name = "--out",
+            .meaning = "folder of the data set",
+            .value = "DATASET",
+            .required = true},
+           {.name = "--rig",
+            .meaning = "which bench, where the columns do not tell",
+            .value = "locked|free|specimen|servo"},
+           {.name = "--ratio", .meaning = "gear ratio, motor turns per output turn", .value = "N"},
+           {.name = "--motor-inertia", .meaning = "of motor and wave generator", .value = "KGM2"},
+           {.name = "--load-inertia", .meaning = "at the output", .value = "KGM2"},
+           {.name = "--map",
+            .meaning = "what a column is: tau=col4:Nm, theta_m=Winkel:-deg (sign turned), "
+                       "theta_l=q:counts/4096, tau_m=none",
+            .value = "QUANTITY=COLUMN[:UNIT]",
+            .repeats = true},
+           {.name = "--table",
+            .meaning = "the table inside the files, by its path; all that fit where absent",
+            .value = "PATH",
+            .repeats = true},
+           {.name = "--split",
+            .meaning = "rests and pauses of so many seconds end a recording",
+            .value = "SECONDS"},
+           {.name = "--accept",
+            .meaning = "a finding that is no mistake here; kept in the data set",
+            .value = "CODE",
+            .repeats = true},
+           {.name = "--delimiter", .meaning = "of a text: ; , | tab blank", .value = "MARK"},
+           {.name = "--decimal", .meaning = "mark of a text's numbers: . or ,", .value = "MARK"},
+           {.name = "--header-line", .meaning = "of a text, where its names stand", .value = "N"},
+           {.name = "--name", .meaning = "of the data set; else the folder's", .value = "NAME"},
+           {.name = "--license", .meaning = "SPDX id of the data set's license", .value = "ID"},
+           {.name = "--dry-run", .meaning = "says what it would do; writes nothing", .value = {}},
+           {.name = "--yes", .meaning = "asks nothing", .value = {}},
+           kForce},
+      .example = "flexspline import messung_03.csv --out my-gear --ratio 100",
+      .run = run};
+}
+
+}  // namespace flexspline::app
