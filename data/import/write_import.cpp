@@ -140,6 +140,8 @@ std::vector<double> starts_of(const ImportParts& parts,
 Result<Imported> write_import(const ImportPlan& plan, const std::filesystem::path& folder) {
   expects(plan.open.empty() && plan.rig && plan.parts,
           "a plan that is written has no open question");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);  // what fails is told by the first file
   const ImportParts& parts = *plan.parts;
   std::vector<std::vector<WrittenRecording>> written;
   Imported imported;
