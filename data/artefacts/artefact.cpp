@@ -61,6 +61,8 @@ Result<Json> parse_json(std::string_view text, const std::filesystem::path& path
     const TextPlace place = place_of(text, error.byte > 0 ? error.byte - 1 : 0);
     return refused(fmt::format("{}:{}:{}", path.string(), place.line, place.column),
                    "from here on it is not JSON; the file may be cut short or damaged");
+  } catch (const Json::out_of_range&) {
+    return refused(path.string(), "it holds a number beyond 1e308; the file may be damaged");
   }
 }
 

@@ -32,7 +32,7 @@ struct ImportParts {
 
 /// What is found in a table, on the way to its channels.
 struct TableFinding {
-  std::vector<FoundChannel> channels;
+  std::vector<FoundChannel> channels;  ///< time first
   std::vector<Inference> inferred;
   std::vector<OpenQuestion> open;
   std::vector<std::string> notes;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "flexspline/data/checksum.hpp"
+#include "flexspline/data/sanity_codes.hpp"
 
 namespace flexspline::data {
 namespace {
@@ -69,7 +70,7 @@ std::string content_hash(const RecordingSet& set) {
     add_text(sum, name);
     add_number(sum, value);
   }
-  for (const std::string& code : set.accepted) add_text(sum, code);
+  for (const std::string_view code : accepted_findings(set)) add_text(sum, code);
   std::vector<const Recording*> sorted;
   for (const Recording& recording : set.recordings) sorted.push_back(&recording);
   std::ranges::sort(sorted, {}, [](const Recording* recording) { return recording->id; });

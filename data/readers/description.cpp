@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "flexspline/core/nearest_name.hpp"
-#include "flexspline/data/sanity.hpp"
+#include "flexspline/data/sanity_codes.hpp"
 #include "readers/description_parts.hpp"
 #include "readers/rig_channels.hpp"
 
@@ -127,21 +127,18 @@ std::string parse_license(TomlReader& reader, const toml::table& root,
   return reader.text(root, "license").value_or("");
 }
 
-std::vector<std::string> parse_accepted(TomlReader& reader, const toml::table& root) {
-  std::vector<std::string> accepted;
+void read_accepted(TomlReader& reader, const toml::table& root, RecordingSet& set) {
   const toml::array* list = reader.list(root, "accept");
-  if (list == nullptr) return accepted;
+  if (list == nullptr) return;
   for (const toml::node& node : *list) {
-    const auto code = node.value<std::string>();
-    if (code && is_sanity_code(*code)) {
-      accepted.push_back(*code);
+    const std::string code = node.value<std::string>().value_or("");
+    if (is_sanity_code(code)) {
+      accept_finding(set, code);
     } else {
-      reader.refuse(node.source(),
-                    fmt::format("accept: there is no finding '{}'", code.value_or("(no text)")),
-                    sanity_code_suggestion(code.value_or("")));
+      reader.refuse(node.source(), fmt::format("accept: there is no finding '{}'", code),
+                    sanity_code_suggestion(code));
     }
   }
-  return accepted;
 }
 
 void read_recordings(TomlReader& reader, const toml::table& root,
@@ -170,7 +167,7 @@ Description parse_description(std::string_view text, const std::filesystem::path
   set.license = parse_license(reader, *root, reading.notes);
   set.source = reader.text(*root, "source").value_or("");
   set.note = reader.text(*root, "note").value_or("");
-  set.accepted = parse_accepted(reader, *root);
+  read_accepted(reader, *root, set);
   if (const toml::table* constants = reader.subtable(*root, "constants")) {
     set.constants = parse_constants(reader, *constants, reading.notes);
   }

@@ -41,7 +41,7 @@ Result<fs::path> table_path(const fs::path& folder, const fs::path& file) {
   if (!fs::is_regular_file(real, error)) return refused(file, "is not a file", "name a CSV file");
   if (const std::string kind = file.extension().string();
       kind == ".mat" || kind == ".h5" || kind == ".hdf5") {
-    return refused(file, "is a kind of table that is not read yet", "export it as CSV");
+    return refused(file, "is no CSV table", "flexspline import makes a data set of it");
   }
   return path;
 }

@@ -8,6 +8,7 @@
 
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/dataset.hpp"
+#include "flexspline/data/sanity_codes.hpp"
 #include "readers/toml_text.hpp"
 
 namespace flexspline::data {
@@ -90,11 +91,11 @@ std::string entry_text(const Recording& recording, const std::string& file,
 }
 
 std::string accepted_text(const RecordingSet& set) {
-  if (set.accepted.empty()) return {};
   std::string list;
-  for (const std::string& code : set.accepted)
+  for (const std::string_view code : accepted_findings(set)) {
     list += (list.empty() ? "" : ", ") + toml_quoted(code);
-  return fmt::format("accept = [{}]\n", list);
+  }
+  return list.empty() ? list : fmt::format("accept = [{}]\n", list);
 }
 
 std::string head_text(const RecordingSet& set, const std::vector<Column>& columns) {

@@ -1,45 +1,20 @@
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
-#include "flexspline/core/nearest_name.hpp"
 #include "flexspline/data/sanity.hpp"
+#include "flexspline/data/sanity_codes.hpp"
 #include "sanity/check.hpp"
 
 namespace flexspline::data {
 namespace {
-
-constexpr std::array<std::string_view, 4> kCodes = {"check_units", "check_sign", "check_ratio",
-                                                    "check_channel"};
-
-bool is_accepted(const RecordingSet& set, const SanityFinding& finding) {
-  return std::ranges::any_of(set.accepted, [&](const std::string& one) {
-    return one == finding.code || one == finding.check;
-  });
-}
 
 void accept(SanityFinding& finding) {
   finding.severity = Severity::warning;
   finding.remedy = "accepted by the data set";
 }
 
-std::vector<std::string_view> known_codes() {
-  std::vector<std::string_view> known(kCodes.begin(), kCodes.end());
-  for (const SanityRow& row : sanity_checks()) known.push_back(row.id);
-  return known;
-}
-
 }  // namespace
-
-bool is_sanity_code(std::string_view code) {
-  const auto known = known_codes();
-  return std::ranges::find(known, code) != known.end();
-}
-
-std::string sanity_code_suggestion(std::string_view code) {
-  return suggestion(code, known_codes());
-}
 
 std::string_view name_of(Severity severity) {
   return severity == Severity::error ? "error" : "warning";
@@ -52,11 +27,15 @@ std::string SanityFinding::message() const {
 
 std::vector<SanityFinding> sanity_of(const RecordingSet& set) {
   const ObservedSet observed = observe(set);
+  const auto accepted = accepted_findings(set);
+  const auto is_accepted = [&](std::string_view code) {
+    return std::ranges::find(accepted, code) != accepted.end();
+  };
   std::vector<SanityFinding> findings;
   for (const SanityRow& row : sanity_checks()) {
     for (SanityFinding& finding : row.find(observed)) {
       finding.check = row.id;
-      if (is_accepted(set, finding)) accept(finding);
+      if (is_accepted(finding.code) || is_accepted(finding.check)) accept(finding);
       findings.push_back(std::move(finding));
     }
   }

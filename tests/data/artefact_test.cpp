@@ -69,6 +69,7 @@ TEST_F(Artefact, IsRefusedWhenTamperedWith) {
   EXPECT_THAT(refusal(with(written(), "sha256", "sha25")), HasSubstr("sha256 is null"));
   EXPECT_THAT(refusal(written().substr(0, 40)), HasSubstr("cut short"));
   EXPECT_THAT(refusal("[]"), HasSubstr("not a JSON object"));
+  EXPECT_THAT(refusal("{\"a\": 1e400}"), HasSubstr("beyond 1e308"));
   EXPECT_THAT(refusal(""), HasSubstr("not JSON"));
   EXPECT_THAT(refusal(with(written(), "case/1", "case/2")), HasSubstr("flexspline-case/2"));
 }

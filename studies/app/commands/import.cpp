@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include <unistd.h>
 
@@ -17,6 +18,7 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/import.hpp"
 #include "flexspline/data/sanity.hpp"
+#include "flexspline/data/sanity_codes.hpp"
 #include "output_folder.hpp"
 
 namespace flexspline::app {
@@ -169,11 +171,16 @@ Result<std::string> sha256_of(const std::vector<fs::path>& files) {
   return sum.hex();
 }
 
+/// What an earlier import left in the folder; nothing where it holds something else.
+std::optional<data::Manifest> earlier_import(const fs::path& folder) {
+  const auto manifest = data::read_manifest(folder);
+  if (!manifest || !manifest->finished || manifest->command != "import") return std::nullopt;
+  return *manifest;
+}
+
 /// What a person mended in the folder is theirs.
-Result<void> refuse_mended(const fs::path& folder) {
-  const auto earlier = data::read_manifest(folder);
-  if (!earlier || !earlier->finished) return {};
-  for (const data::ChangedFile& one : data::changed_files(folder, *earlier)) {
+Result<void> refuse_mended(const fs::path& folder, const data::Manifest& earlier) {
+  for (const data::ChangedFile& one : data::changed_files(folder, earlier)) {
     if (one.missing) continue;
     return failure(
         ErrorCode::cannot_write,
@@ -184,10 +191,9 @@ Result<void> refuse_mended(const fs::path& folder) {
 }
 
 /// Recordings of an earlier import that this one does not write.
-void remove_left_over(const fs::path& folder, const std::vector<std::string>& written) {
-  const auto earlier = data::read_manifest(folder);
-  if (!earlier) return;
-  for (const auto& [name, sum] : earlier->files) {
+void remove_left_over(const fs::path& folder, const data::Manifest& earlier,
+                      const std::vector<std::string>& written) {
+  for (const auto& [name, sum] : earlier.files) {
     if (std::ranges::find(written, name) != written.end() || !name.ends_with(".csv")) continue;
     std::error_code ignored;
     fs::remove(folder / name, ignored);
@@ -264,14 +270,15 @@ Result<ExitCode> write(const data::ImportPlan& plan, const Arguments& arguments,
                   plan.wish.files[0],
                   plan.wish.files,
                   arguments.has("force")};
+  const auto earlier = earlier_import(folder);
+  if (earlier && !wish.force) {
+    if (auto kept = refuse_mended(folder, *earlier); !kept) return tl::unexpected(kept.error());
+  }
   auto output = OutputFolder::claim(wish);
   if (!output) return tl::unexpected(output.error());
-  if (!wish.force) {
-    if (auto kept = refuse_mended(folder); !kept) return tl::unexpected(kept.error());
-  }
   const auto imported = data::write_import(plan, folder);
   if (!imported) return tl::unexpected(imported.error());
-  remove_left_over(folder, imported->files);
+  if (earlier) remove_left_over(folder, *earlier, imported->files);
   if (auto done = output->finish(imported->files); !done) return tl::unexpected(done.error());
   return report(folder, plan, *imported, console);
 }

@@ -84,7 +84,6 @@ struct RecordingSet {
   std::string note;
   std::string sha256;  ///< of the description and every table, independent of the folder's name
   std::map<std::string, double> constants;  ///< by the key of the file, SI by its suffix
-  std::vector<std::string> accepted;  ///< findings of mistakes that a person says are none here
   DisplayUnits display;
   std::vector<Recording> recordings;
   std::vector<std::string> notes;  ///< what had to be decided in reading, for the person to know

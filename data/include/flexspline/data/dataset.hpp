@@ -49,7 +49,7 @@ void thin_recordings(RecordingSet& set, std::size_t most);
 Result<RecordingSet> load_dataset(const std::filesystem::path& folder,
                                   std::size_t most_rows = kMostRows);
 
-/// SHA-256 of what the recordings say: rig, constants, what is accepted, and of every recording, by id, its split,
+/// SHA-256 of what the recordings say: rig, constants, and of every recording, by id, its split,
 /// nominal excitation and samples in SI. Names of folders, files and columns, their order and
 /// remarks do not count. Values are rounded to 30 binary digits (1e-9), so that the same data
 /// written in another unit hash alike but for one rounding in four million values.

@@ -33,11 +33,6 @@ struct SanityFinding {
 /// knows no inertia and states no amplitude looks like another gear.
 std::vector<SanityFinding> sanity_of(const RecordingSet& set);
 
-/// Whether a set may accept it: check_units, check_sign, check_ratio, check_channel, or the id of one
-/// check. What is accepted is still said, as a warning.
-bool is_sanity_code(std::string_view code);
-std::string sanity_code_suggestion(std::string_view code);
-
 /// True where one of them is an error.
 bool stops_science(const std::vector<SanityFinding>& findings);
 
