@@ -77,8 +77,8 @@ class Finder {
     take_roles();
     ask_for_missing();
     note_the_rest();
-    std::ranges::stable_partition(
-        finding_.channels, [](const FoundChannel& one) { return one.quantity == Quantity::time; });
+    std::stable_partition(finding_.channels.begin(), finding_.channels.end(),
+                          [](const FoundChannel& one) { return one.quantity == Quantity::time; });
     return std::move(finding_);
   }
 
