@@ -27,7 +27,7 @@ nav() {
     for file in "$@"; do printf '<li><a href="%s%s">%s</a></li>' "$up" "$(page_of "$file")" "$(title_of "$file")"; done
     printf '</ul>'
   }
-  section 'Using it' docs/dataset.md docs/fits.md docs/diagnosis.md docs/export.md docs/study-file.md docs/trials.md
+  section 'Using it' docs/import.md docs/dataset.md docs/fits.md docs/diagnosis.md docs/export.md docs/study-file.md docs/trials.md
   section 'Reference' docs/effects/README.md docs/model-file.md docs/simulation.md docs/artefacts.md docs/library.md
   local known=" dataset fits diagnosis export study-file trials model-file simulation artefacts library " others=()
   for file in docs/*.md; do
