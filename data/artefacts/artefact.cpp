@@ -41,12 +41,13 @@ std::string seal_of(const std::string& sum) { return fmt::format(",\"sha256\":\"
 /// Whether the text is, byte for byte, what the writer makes of its content: then the checksum is
 /// that of the text, and nothing has to be dumped again.
 bool is_as_written(std::string_view text) {
-  const std::size_t seal = seal_of(std::string(64, '0')).size();
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  const std::size_t seal = seal_of(std::string(64, '0')).size() - 1;
   if (text.size() <= seal) return false;
   Sha256 sum;
   sum.add(text.substr(0, text.size() - seal));
   sum.add("}");
-  return text.ends_with(seal_of(sum.hex()));
+  return text.ends_with(std::string_view(seal_of(sum.hex())).substr(0, seal));
 }
 
 }  // namespace
@@ -66,18 +67,26 @@ Result<Json> parse_json(std::string_view text, const std::filesystem::path& path
   }
 }
 
-Result<void> write_artefact(const std::filesystem::path& path, Json content) {
+std::string sealed(Json content) {
   content.erase("sha256");
   std::string text = canonical(content);
-  const std::string sum = sha256_hex(text);
-  text.replace(text.size() - 1, 1, seal_of(sum));
-  return write_file(path, text);
+  const std::string seal = seal_of(sha256_hex(text));
+  return text.replace(text.size() - 1, 1, seal, 0, seal.size() - 1);
+}
+
+Result<void> write_artefact(const std::filesystem::path& path, Json content) {
+  return write_file(path, sealed(std::move(content)) + "\n");
 }
 
 Result<Json> read_artefact(const std::filesystem::path& path, std::string_view schema) {
   const Result<std::string> text = read_file(path);
   if (!text) return tl::unexpected<Error>(text.error());
-  Result<Json> parsed = parse_json(*text, path);
+  return parse_artefact(*text, path, schema);
+}
+
+Result<Json> parse_artefact(std::string_view text, const std::filesystem::path& path,
+                            std::string_view schema) {
+  Result<Json> parsed = parse_json(text, path);
   if (!parsed) return parsed;
   Json& content = *parsed;
   if (!content.is_object()) return refused(path, "not a JSON object");
@@ -86,7 +95,7 @@ Result<Json> read_artefact(const std::filesystem::path& path, std::string_view s
   }
   const Json written = content.value("sha256", Json());
   content.erase("sha256");
-  if (is_as_written(*text)) return parsed;
+  if (is_as_written(text)) return parsed;
   const std::string sum = sha256_hex(canonical(content));
   if (written != sum) {
     return refused(path, fmt::format("checksum does not hold: sha256 is {}, the content gives {}",

@@ -1,5 +1,6 @@
 #include "bench/bench_sensors.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -9,7 +10,13 @@
 namespace flexspline::data {
 namespace {
 
-enum Stream : std::uint64_t { angle_stream, white_stream, coloured_stream };
+enum Stream : std::uint64_t {
+  angle_stream,
+  white_stream,
+  coloured_stream,
+  jitter_stream,
+  missing_stream
+};
 
 /// Unit variance from the first sample on; correlation exp(-k / samples).
 void add_coloured(std::vector<double>& signal, double rms, double samples,
@@ -53,6 +60,30 @@ std::vector<double> measured_torque(const std::vector<double>& torque, const Ben
     add_coloured(measured, coloured, sensors.torque_noise_samples, {seed, id, coloured_stream});
   }
   return measured;
+}
+
+std::vector<double> measured_time(const std::vector<double>& time, const BenchSensors& sensors,
+                                  std::uint64_t seed, std::string_view id) {
+  constexpr double kLargest = 0.45;  // of a step, so that time goes on increasing
+  std::vector<double> stamps = time;
+  if (!(sensors.time_jitter > 0.0) || time.size() < 2) return stamps;
+  const CounterNoise noise(seed, id, jitter_stream);
+  const double step = time[1] - time[0];
+  for (std::size_t k = 1; k < stamps.size(); ++k) {
+    stamps[k] += step * std::clamp(sensors.time_jitter * noise.normal(k), -kLargest, kLargest);
+  }
+  return stamps;
+}
+
+std::vector<bool> samples_kept(std::size_t count, const BenchSensors& sensors, std::uint64_t seed,
+                               std::string_view id) {
+  std::vector<bool> kept(count, true);
+  if (!(sensors.missing_samples > 0.0)) return kept;
+  const CounterNoise noise(seed, id, missing_stream);
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    kept[k] = 0.5 * std::erfc(-noise.normal(k) / std::sqrt(2.0)) >= sensors.missing_samples;
+  }
+  return kept;
 }
 
 }  // namespace flexspline::data

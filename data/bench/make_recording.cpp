@@ -55,13 +55,31 @@ Recording recording_of(const BenchRecording& made, const BenchExcitation& excita
   recording.excitation = "sine";
   recording.amplitude = excitation.amplitude;
   recording.frequency_hz = excitation.frequency_hz;
-  recording.time = made.motion.time;
+  recording.time = measured_time(made.motion.time, sensors, seed, id);
   recording.channels[Quantity::motor_angle] =
       measured_motor_angle(made.motion.position, sensors, seed, id);
   recording.channels[Quantity::transmitted_torque] =
       measured_torque(made.torque, sensors, seed, id);
   recording.id = std::move(id);
   return recording;
+}
+
+void keep(std::vector<double>& list, const std::vector<bool>& kept) {
+  std::size_t to = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (kept[k]) list[to++] = list[k];
+  }
+  list.resize(to);
+}
+
+/// Takes the missing samples out of the table, and out of what is known of them.
+void drop_missing(BenchRecording& made, const std::vector<bool>& kept) {
+  keep(made.measured.time, kept);
+  for (auto& [quantity, channel] : made.measured.channels) keep(channel, kept);
+  for (auto* list : {&made.motion.time, &made.motion.position, &made.motion.velocity,
+                     &made.motion.acceleration, &made.torque}) {
+    keep(*list, kept);
+  }
 }
 
 }  // namespace
@@ -84,6 +102,9 @@ Result<BenchRecording> make_recording(const BenchTruth& truth, const BenchExcita
                    "choose an amplitude and a frequency at which the truth is finite");
   }
   made.measured = recording_of(made, excitation, sensors, seed, std::move(id));
+  if (sensors.missing_samples > 0.0) {
+    drop_missing(made, samples_kept(made.torque.size(), sensors, seed, made.measured.id));
+  }
   return made;
 }
 

@@ -50,6 +50,9 @@ void check_sensors(Check& check, const BenchSensors& sensors) {
   check.not_negative("torque_noise_white", sensors.torque_noise_white);
   check.not_negative("torque_noise_coloured", sensors.torque_noise_coloured);
   check.positive("torque_noise_samples", sensors.torque_noise_samples);
+  check.not_negative("time_jitter", sensors.time_jitter);
+  check.require(sensors.missing_samples >= 0.0 && sensors.missing_samples <= 0.9, "missing_samples",
+                sensors.missing_samples, "as a share between 0 and 0.9");
 }
 
 void check_truth(Check& check, const BenchTruth& truth) {

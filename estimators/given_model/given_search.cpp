@@ -128,11 +128,17 @@ Result<GivenSearch> search_given(const ModelSpec& model,
   std::optional<GivenSearch> best;
   std::vector<double> costs;
   for (int k = 0; k < settings.starts; ++k) {
-    auto found = solved_from(model, drawn_start(parameters, settings.seed, k), records, settings);
-    if (!found && k == 0) return found;
+    const int start = settings.first_start + k;
+    auto found =
+        solved_from(model, drawn_start(parameters, settings.seed, start), records, settings);
+    if (!found && (start == 0 || settings.starts == 1)) return found;
     if (!found) continue;
     costs.push_back(found->solution.cost);
     if (!best || costs.back() < best->solution.cost) best.emplace(std::move(*found));
+  }
+  if (!best) {
+    return failure(ErrorCode::numerics, "the model cannot be simulated at any of the starts",
+                   "give the model numbers nearer to what was recorded");
   }
   if (settings.starts > 1) judge(costs, settings.starts, *best);
   return std::move(*best);

@@ -11,7 +11,8 @@ struct GivenSearchSettings {
   bool each_zero = false;  ///< every recording's motion has a zero of its own
   int start_steps = 15;    ///< of the shapes before all numbers are fitted together
   int iterations = 100;
-  int starts = 1;  ///< the one given and others (drawn_start)
+  int starts = 1;       ///< the one given and others (drawn_start)
+  int first_start = 0;  ///< number of the first of them; 0: the one given
   std::uint64_t seed = 1;
 };
 

@@ -19,6 +19,7 @@ GivenSearchSettings settings_of(const FitProblem& problem) {
           .start_steps = whole("start_steps"),
           .iterations = whole("iterations"),
           .starts = whole("starts"),
+          .first_start = whole("first_start"),
           .seed = static_cast<std::uint64_t>(whole("seed"))};
 }
 
@@ -83,6 +84,11 @@ MethodRow describe_model_file() {
                 .value = 1,
                 .lower = 1,
                 .upper = 1000},
+               {.name = "first_start",
+                .meaning = "number of the first of them: 0 the model's own numbers, others drawn",
+                .value = 0,
+                .lower = 0,
+                .upper = 1e6},
                {.name = "seed", .meaning = "of those starts", .value = 1, .lower = 0, .upper = 1e9},
                {.name = "iterations",
                 .meaning = "most iterations of the solver",

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,6 +63,9 @@ struct BenchSensors {
   double torque_noise_white = 0.0;     ///< rms, share of the paper's peak torque
   double torque_noise_coloured = 0.0;  ///< rms of a first-order process, share of the same
   double torque_noise_samples = 20;    ///< its correlation, in samples
+  double time_jitter = 0.0;            ///< rms of the time stamps about the true instants, share of
+                                       ///< the sampling step, cut at 0.45 of it
+  double missing_samples = 0.0;        ///< share of the samples that are not in the table
 };
 
 /// A virtual recording with what only the bench knows.
@@ -70,6 +74,12 @@ struct BenchRecording {
   Motion motion;               ///< true phi, phi', phi''
   std::vector<double> torque;  ///< true transmitted torque as an ideal sensor would show it
 };
+
+/// A truth with its parts multiplied: "stiffness" f, "damping" g^-1, "modulation" ln h, "slip" the
+/// slip elements, "harmonics", "inertia", "sensor_lag"; 1 is as the truth has it.
+/// Errors: usage, with the nearest name, for another part or a factor that is negative or no
+/// number.
+Result<BenchTruth> strengthened(BenchTruth truth, const std::map<std::string, double>& strength);
 
 /// Makes one recording. The seed is counter-based: the same (seed, id) gives the same bytes in any
 /// order and on any number of workers. The random bits are the same on every platform, the numbers
