@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/case_store.hpp"
 #include "flexspline/core/in_parallel.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "lock_file.hpp"
@@ -31,17 +32,19 @@ std::vector<fs::path> json_files(const fs::path& folder) {
   return files;
 }
 
+constexpr std::size_t kMostCases = 2000;  // that a page can say anything about one by one
+
 /// An artefact with the schema it should have, parsed; or a line in `unreadable`.
 template <class Parse>
-auto read_one(const fs::path& path, std::string_view schema, Parse parse,
-              std::vector<std::string>& unreadable)
+auto parse_one(const std::string& shown, const Result<std::string>& text, std::string_view schema,
+               Parse parse, std::vector<std::string>& unreadable)
     -> std::optional<decltype(parse(std::declval<const json&>()))> {
   const auto refuse = [&](const std::string& reason) {
-    const fs::path shown = path.parent_path().filename() / path.filename();
-    unreadable.push_back(shown.generic_string() + ": " + reason);
+    unreadable.push_back(shown + ": " + reason);
     return std::nullopt;
   };
-  const auto artefact = read_checked(path, schema);
+  const auto artefact =
+      text.and_then([&](const std::string& whole) { return check_text(whole, schema); });
   if (!artefact) return refuse(artefact.error().problem);
   try {
     return parse(*artefact);
@@ -50,21 +53,63 @@ auto read_one(const fs::path& path, std::string_view schema, Parse parse,
   }
 }
 
-/// The same of many files, several at once; in the order of the files.
 template <class Parse>
-auto read_all(const std::vector<fs::path>& files, std::string_view schema, Parse parse,
+auto read_one(const fs::path& path, std::string_view schema, Parse parse,
               std::vector<std::string>& unreadable) {
-  using One = decltype(read_one(files.front(), schema, parse, unreadable));
-  std::vector<One> read(files.size());
-  std::vector<std::vector<std::string>> refused(files.size());
-  in_parallel(files.size(), std::min(threads_for(0), kReaders),
-              [&](std::size_t i) { read[i] = read_one(files[i], schema, parse, refused[i]); });
+  const fs::path shown = path.parent_path().filename() / path.filename();
+  return parse_one(shown.generic_string(), read_file(path), schema, parse, unreadable);
+}
+
+/// Many of them, several at once; in their order.
+template <class Read>
+auto read_all(std::size_t count, Read read_at, std::vector<std::string>& unreadable) {
+  using One = decltype(read_at(std::size_t{0}, unreadable));
+  std::vector<One> read(count);
+  std::vector<std::vector<std::string>> refused(count);
+  in_parallel(count, std::min(threads_for(0), kReaders),
+              [&](std::size_t i) { read[i] = read_at(i, refused[i]); });
   std::vector<typename One::value_type> whole;
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (read[i]) whole.push_back(std::move(*read[i]));
     std::ranges::move(refused[i], std::back_inserter(unreadable));
   }
   return whole;
+}
+
+std::vector<Input> read_inputs(const fs::path& folder, std::vector<std::string>& unreadable) {
+  const auto files = json_files(folder / "inputs");
+  return read_all(
+      files.size(),
+      [&](std::size_t i, std::vector<std::string>& refused) {
+        return read_one(files[i], "flexspline-input/1", parse_input, refused);
+      },
+      unreadable);
+}
+
+/// Of a study that is swept, or of very many cases, those at the beginning of every sweep.
+std::vector<std::string> shown_keys(const CaseStore& store) {
+  std::vector<std::string> keys = store.keys();
+  std::erase_if(keys, [](const std::string& key) {
+    return key.find("--v") != std::string::npos && key.find("--v0--") == std::string::npos;
+  });
+  if (keys.size() > kMostCases) {
+    std::erase_if(keys, [](const std::string& key) { return !key.ends_with("--r0"); });
+  }
+  keys.resize(std::min(keys.size(), kMostCases));
+  return keys;
+}
+
+std::vector<Case> read_cases(const CaseStore& store, std::vector<std::string>& unreadable) {
+  const std::vector<std::string> keys = shown_keys(store);
+  return read_all(
+      keys.size(),
+      [&](std::size_t i, std::vector<std::string>& refused) {
+        const auto text =
+            store.read(keys[i]).map([](const StoredCase& one) { return one.artefact; });
+        return parse_one("cases/" + keys[i] + ".json", text, "flexspline-case/1", parse_case,
+                         refused);
+      },
+      unreadable);
 }
 
 void keep_first_of_each_id(std::vector<Input>& inputs) {
@@ -77,12 +122,12 @@ void keep_first_of_each_id(std::vector<Input>& inputs) {
   inputs = std::move(kept);
 }
 
-void name_missing(const fs::path& folder, const std::vector<std::string>& keys,
+void name_missing(const CaseStore& store, const std::vector<std::string>& keys,
                   std::vector<std::string>& unreadable) {
+  const std::vector<std::string> there = store.keys();
   for (const std::string& key : keys) {
-    const fs::path file = fs::path("cases") / (key + ".json");
-    if (!file_exists(folder / file)) {
-      unreadable.push_back(file.generic_string() + ": it is missing");
+    if (!std::ranges::binary_search(there, key)) {
+      unreadable.push_back("cases/" + key + ".json: it is missing");
     }
   }
 }
@@ -116,18 +161,25 @@ std::vector<const CaseRecording*> Case::trained() const {
 Result<Artefacts> read_artefacts(const fs::path& folder) {
   Artefacts artefacts;
   auto& unreadable = artefacts.unreadable;
-  artefacts.inputs =
-      read_all(json_files(folder / "inputs"), "flexspline-input/1", parse_input, unreadable);
-  keep_first_of_each_id(artefacts.inputs);
-  artefacts.cases =
-      read_all(json_files(folder / "cases"), "flexspline-case/1", parse_case, unreadable);
+  const auto store = CaseStore::open(folder);
+  if (!store) return tl::unexpected(store.error());
+  unreadable = store->damaged();
+  if (const fs::path path = folder / "kind.json"; file_exists(path)) {
+    artefacts.kind = read_one(path, "flexspline-kind/1", parse_kind, unreadable);
+  }
+  // A study of another kind than a grid is its answer, not its cases one by one.
+  if (!artefacts.kind || artefacts.kind->kind == "grid") {
+    artefacts.inputs = read_inputs(folder, unreadable);
+    keep_first_of_each_id(artefacts.inputs);
+    artefacts.cases = read_cases(*store, unreadable);
+  }
   if (const fs::path path = folder / "paper.json"; file_exists(path)) {
     artefacts.paper = read_one(path, "flexspline-paper/1", parse_paper, unreadable);
   }
   if (auto lock = read_file(folder / "study.lock.toml")) artefacts.lock = std::move(*lock);
-  name_missing(folder, parse_lock(artefacts.lock).cases, unreadable);
-  const bool nothing = artefacts.inputs.empty() && artefacts.cases.empty() && !artefacts.paper &&
-                       unreadable.empty() && artefacts.lock.empty();
+  name_missing(*store, parse_lock(artefacts.lock).cases, unreadable);
+  const bool nothing = !artefacts.kind && artefacts.inputs.empty() && artefacts.cases.empty() &&
+                       !artefacts.paper && unreadable.empty() && artefacts.lock.empty();
   if (nothing) {
     return failure(ErrorCode::input_missing,
                    folder.string() + " holds no artefact to draw a report from",

@@ -13,6 +13,7 @@ namespace flexspline::reports {
 Input parse_input(const nlohmann::json& artefact);
 Case parse_case(const nlohmann::json& artefact);
 Paper parse_paper(const nlohmann::json& artefact);
+Kind parse_kind(const nlohmann::json& artefact);
 DiagnosisView parse_diagnosis(const nlohmann::json& artefact);
 TrialView parse_trial(const nlohmann::json& artefact);
 VerificationView parse_verification(const nlohmann::json& artefact);

@@ -33,18 +33,22 @@ using nlohmann::json;
 Result<json> read_checked(const std::filesystem::path& path, std::string_view schema) {
   const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
-  if (const auto flat = check_nesting(*text); !flat) return tl::unexpected(flat.error());
+  return check_text(*text, schema);
+}
+
+Result<json> check_text(const std::string& text, std::string_view schema) {
+  if (const auto flat = check_nesting(text); !flat) return tl::unexpected(flat.error());
   try {
-    json artefact = json::parse(*text);
+    json artefact = json::parse(text);
     const std::string found = text_in(artefact, "schema");
     if (found != schema) {
       return failure(ErrorCode::bad_data,
                      "schema is \"" + found + "\", not \"" + std::string(schema) + "\"");
     }
-    if (checksum_holds(*text)) return artefact;
+    if (checksum_holds(text)) return artefact;
     return failure(ErrorCode::bad_data, "its checksum does not hold");
   } catch (const json::parse_error& error) {
-    const TextPlace place = flexspline::place_of(*text, error.byte > 0 ? error.byte - 1 : 0);
+    const TextPlace place = flexspline::place_of(text, error.byte > 0 ? error.byte - 1 : 0);
     return failure(ErrorCode::bad_data,
                    fmt::format("from line {}, column {} on it is not JSON; the file may be cut "
                                "short or damaged",

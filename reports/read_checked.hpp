@@ -17,4 +17,7 @@ inline constexpr const char* kOtherKind =
 /// JSON, has another schema, or its checksum does not hold.
 Result<nlohmann::json> read_checked(const std::filesystem::path& path, std::string_view schema);
 
+/// The same of its text.
+Result<nlohmann::json> check_text(const std::string& text, std::string_view schema);
+
 }  // namespace flexspline::reports

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "config/locked_json.hpp"
+#include "config/study_source.hpp"
+#include "config/toml_root.hpp"
 #include "flexspline/core/nesting.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/studies/verify.hpp"
@@ -22,6 +24,8 @@ BenchConfig bench_from(const json& from) {
   bench.sensors.torque_noise_white = from.at("torque_noise_white");
   bench.sensors.torque_noise_coloured = from.at("torque_noise_coloured");
   bench.sensors.torque_noise_samples = from.at("torque_noise_samples");
+  bench.sensors.time_jitter = from.value("time_jitter", 0.0);
+  bench.sensors.missing_samples = from.value("missing_samples", 0.0);
   bench.cycles = from.at("cycles");
   bench.samples_per_cycle = from.at("samples_per_cycle");
   return bench;
@@ -47,6 +51,7 @@ InputConfig input_from(const json& from, const fs::path& data_root) {
   input.dataset = found(from.at("dataset"), data_root);
   input.holdout = from.at("holdout");
   if (from.contains("bench")) input.bench = bench_from(from.at("bench"));
+  input.strength = from.value("strength", std::map<std::string, double>{});
   input.rows = from.value("rows", data::kMostRows);
   if (from.contains("held_out")) {
     input.held_out = from.at("held_out").get<std::vector<std::string>>();
@@ -98,6 +103,17 @@ StudyConfig study_from(const json& from, const fs::path& data_root) {
   return study;
 }
 
+/// A study of another kind than a grid, or with sweeps, from the text of its file.
+Result<StudyConfig> from_source(const json& source, const fs::path& data_root) {
+  const fs::path written_root = source.at("data_root").get<std::string>();
+  const fs::path file = source.at("file").get<std::string>();
+  auto reading =
+      read_study_text(source.at("text"), file, data_root.empty() ? written_root : data_root,
+                      source.at("model_root").get<std::string>());
+  if (!reading.study) return tl::unexpected(as_error(reading.errors));
+  return std::move(*reading.study);
+}
+
 /// A model file is written into the lock as it was understood, and not read back from there.
 bool has_model(const json& study) {
   const json none = json::array();
@@ -130,6 +146,7 @@ Result<StudyConfig> read_locked_study(const fs::path& lock, const fs::path& data
   const auto locked = read_lock_json(lock);
   if (!locked) return tl::unexpected(locked.error());
   try {
+    if (locked->contains("source")) return from_source(locked->at("source"), data_root);
     const json& study = locked->at("study");
     if (has_model(study)) {
       return failure(ErrorCode::bad_data, lock.string() + " holds a model file's content",

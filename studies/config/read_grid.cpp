@@ -107,6 +107,8 @@ BenchConfig read_bench(TomlSection& section, BenchConfig bench) {
   if (const auto samples = section.integer("torque_noise_samples", 1, 100000)) {
     bench.sensors.torque_noise_samples = static_cast<double>(*samples);
   }
+  set(bench.sensors.time_jitter, "time_jitter", Dimension::dimensionless);
+  set(bench.sensors.missing_samples, "missing_samples", Dimension::dimensionless);
   bench.cycles = static_cast<int>(section.integer("cycles", 3, 1000).value_or(bench.cycles));
   bench.samples_per_cycle = static_cast<int>(
       section.integer("samples_per_cycle", 32, 100000).value_or(bench.samples_per_cycle));

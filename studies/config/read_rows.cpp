@@ -5,6 +5,7 @@
 #include "config/study_reader.hpp"
 #include "flexspline/core/nearest_name.hpp"
 #include "flexspline/data/model_toml.hpp"
+#include "flexspline/studies/kind.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -118,6 +119,24 @@ std::optional<BenchConfig> read_own_bench(TomlSection& section, const InputConfi
   return read_bench(*table, otherwise);
 }
 
+/// Factors of the parts of a truth.
+std::map<std::string, double> read_strength(TomlSection& section, const InputConfig& input) {
+  std::map<std::string, double> strength;
+  auto table = section.table("strength");
+  if (!table) return strength;
+  for (const auto& [key, value] : table->raw()) {
+    strength[std::string(key.str())] = value.value<double>().value_or(-1.0);
+  }
+  const auto row = data::find_truth(input.truth);
+  if (!row) {
+    section.refuse("strength", fmt::format("input '{}' has no truth to be stronger", input.id),
+                   "leave 'strength' out");
+  } else if (const auto made = data::strengthened((*row)->make(), strength); !made) {
+    section.refuse("strength", made.error().problem, made.error().remedy);
+  }
+  return strength;
+}
+
 }  // namespace
 
 void check_id(TomlSection& section, const std::string& id, const std::vector<std::string>& before) {
@@ -156,6 +175,7 @@ InputConfig read_input(TomlSection& section, const StudyConfig& study,
   check_grid(section, "holdout", input.holdout, study, {});
   input.held_out = read_held_out(section, input);
   input.bench = read_own_bench(section, input, study.bench);
+  input.strength = read_strength(section, input);
   if (section.has("rows")) {
     input.rows = static_cast<std::size_t>(section.integer("rows", 0, 100'000'000).value_or(0));
   }
@@ -187,7 +207,9 @@ EstimatorConfig read_estimator(TomlSection& section, const StudyConfig& study,
                    fmt::format("'{}' names no input '{}'", section.name_of("inputs"), input),
                    suggestion(input, names));
   }
-  const bool grid_wanted = estimator.train == kTrainAll || estimator.train == kTrainOne;
+  const KindRow* kind = find_kind(study.kind);
+  const bool grid_wanted = (estimator.train == kTrainAll || estimator.train == kTrainOne) &&
+                           (kind == nullptr || !kind->chooses_training);
   for (const InputConfig& input : study.inputs) {
     const bool selected = estimator.inputs.empty() ||
                           std::ranges::find(estimator.inputs, input.id) != estimator.inputs.end();

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/core/nearest_name.hpp"
+#include "flexspline/core/write_file.hpp"
+
 #include "config/study_reader.hpp"
+#include "config/study_source.hpp"
 #include "config/toml_root.hpp"
+#include "flexspline/studies/kind.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -14,6 +19,7 @@ void read_head(TomlSection& root, StudyConfig& study) {
   check_schema(root, kSchema);
   study.name = root.required_text("name");
   study.title = root.text("title").value_or(study.name);
+  study.kind = root.text("kind").value_or(study.kind);
   constexpr std::int64_t kLargestSeed = 1LL << 53;
   study.seed = static_cast<std::uint64_t>(root.integer("seed", 0, kLargestSeed).value_or(1));
   study.replicates = static_cast<int>(root.integer("replicates", 1, 10000).value_or(1));
@@ -32,27 +38,51 @@ void read_rows(TomlSection& root, std::string_view key, std::vector<Row>& rows, 
   }
 }
 
-StudyConfig read_tables(TomlSection& root, const std::filesystem::path& data_root,
-                        const std::filesystem::path& model_root) {
+/// The kind's own table, by its name, and what it makes of the study.
+void read_kind(TomlSection& root, StudyConfig& study) {
+  static_cast<void>(root.node(study.kind));
+  const KindRow* row = find_kind(study.kind);
+  if (row == nullptr) {
+    std::vector<std::string_view> names;
+    for (const KindRow& one : kinds()) names.push_back(one.id);
+    return root.refuse("kind", fmt::format("there is no kind of study '{}'", study.kind),
+                       suggestion(study.kind, names));
+  }
+  if (row->read == nullptr || !root.clean()) return;
+  static const toml::table nothing;
+  auto own = root.table(study.kind);
+  TomlSection section = own ? *own : root.absent(study.kind, nothing);
+  row->read(section, study);
+  section.refuse_unknown_keys();
+}
+
+}  // namespace
+
+const KindRow* find_kind(std::string_view id) {
+  const auto row = std::ranges::find(kinds(), id, &KindRow::id);
+  return row == kinds().end() ? nullptr : &*row;
+}
+
+StudyConfig read_tables(TomlSection& root, const StudySource& source) {
   StudyConfig study;
   read_head(root, study);
   if (auto bench = root.table("bench")) study.bench = read_bench(*bench);
   read_rows(root, "grid", study.grids, read_grid);
   read_rows(root, "input", study.inputs,
-            [&](TomlSection& s) { return read_input(s, study, data_root); });
+            [&](TomlSection& s) { return read_input(s, study, source.data_root); });
   read_rows(root, "estimator", study.estimators,
-            [&](TomlSection& s) { return read_estimator(s, study, model_root); });
+            [&](TomlSection& s) { return read_estimator(s, study, source.model_root); });
   read_rows(root, "contrast", study.contrasts,
             [&](TomlSection& s) { return read_contrast(s, study); });
   if (study.inputs.empty()) root.refuse("input", "the study has no input", "add an [[input]]");
   if (study.estimators.empty()) {
     root.refuse("estimator", "the study has no estimator", "add an [[estimator]]");
   }
+  read_sweeps(root, study);
+  read_kind(root, study);
   root.refuse_unknown_keys();
   return study;
 }
-
-}  // namespace
 
 const Grid* StudyConfig::find_grid(std::string_view id) const {
   const auto found = std::ranges::find(grids, id, &Grid::id);
@@ -66,14 +96,25 @@ const InputConfig* StudyConfig::find_input(std::string_view id) const {
 
 Result<StudyReading> read_study(const std::filesystem::path& file,
                                 const std::filesystem::path& data_root) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  return read_study_text(*text, file, data_root.empty() ? file.parent_path() : data_root,
+                         file.parent_path());
+}
+
+StudyReading read_study_text(const std::string& text, const std::filesystem::path& file,
+                             const std::filesystem::path& data_root,
+                             const std::filesystem::path& model_root) {
   StudyConfig study;
-  auto findings = read_toml_root(file, [&](TomlSection& root) {
-    study =
-        read_tables(root, data_root.empty() ? file.parent_path() : data_root, file.parent_path());
+  StudyReading reading;
+  reading.errors = read_toml_text(text, file, [&](TomlSection& root) {
+    auto source =
+        std::make_shared<StudySource>(StudySource{root.raw(), file, data_root, model_root, text});
+    study = read_tables(root, *source);
+    study.file = file;
+    study.source = std::move(source);
+    if (root.clean()) check_sweeps(root, study);
   });
-  if (!findings) return tl::unexpected(findings.error());
-  StudyReading reading{std::nullopt, *std::move(findings)};
-  study.file = file;
   if (reading.errors.empty()) reading.study = std::move(study);
   return reading;
 }

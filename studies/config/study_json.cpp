@@ -14,6 +14,8 @@ ordered_json to_json(const BenchConfig& bench) {
           {"torque_noise_white", bench.sensors.torque_noise_white},
           {"torque_noise_coloured", bench.sensors.torque_noise_coloured},
           {"torque_noise_samples", bench.sensors.torque_noise_samples},
+          {"time_jitter", bench.sensors.time_jitter},
+          {"missing_samples", bench.sensors.missing_samples},
           {"cycles", bench.cycles},
           {"samples_per_cycle", bench.samples_per_cycle}};
 }
@@ -41,9 +43,10 @@ ordered_json to_json(const estimators::GivenModel& given) {
 }
 
 ordered_json to_json(const StudyConfig& study) {
-  ordered_json object = {{"name", study.name},   {"title", study.title},
-                         {"seed", study.seed},   {"replicates", study.replicates},
-                         {"paper", study.paper}, {"bench", to_json(study.bench)}};
+  ordered_json object = {
+      {"name", study.name},           {"title", study.title},           {"kind", study.kind},
+      {"seed", study.seed},           {"replicates", study.replicates}, {"paper", study.paper},
+      {"bench", to_json(study.bench)}};
   ordered_json& grids = object["grid"] = ordered_json::array();
   for (const Grid& grid : study.grids) {
     grids.push_back({{"id", grid.id}, {"loops_rad_hz", to_json(grid.loops)}});
@@ -56,6 +59,7 @@ ordered_json to_json(const StudyConfig& study) {
                       {"dataset", input.dataset.generic_string()},
                       {"holdout", input.holdout}});
     if (input.bench) inputs.back()["bench"] = to_json(*input.bench);
+    if (!input.strength.empty()) inputs.back()["strength"] = input.strength;
     if (input.held_out) inputs.back()["held_out"] = *input.held_out;
     if (input.rows != data::kMostRows) inputs.back()["rows"] = input.rows;
   }
@@ -73,6 +77,11 @@ ordered_json to_json(const StudyConfig& study) {
   for (const ContrastConfig& one : study.contrasts) {
     object["contrast"].push_back(
         {{"id", one.id}, {"title", one.title}, {"from", one.from}, {"to", one.to}});
+  }
+  for (const SweepAxis& sweep : study.sweeps) {
+    ordered_json keys = ordered_json::array();
+    for (const SweepKey& key : sweep.keys) keys.push_back({{"key", key.path}, {"unit", key.unit}});
+    object["sweep"].push_back({{"id", sweep.id}, {"keys", keys}, {"points", sweep.points.size()}});
   }
   return object;
 }

@@ -20,13 +20,19 @@ Result<std::vector<data::Finding>> read_toml_root(const std::filesystem::path& f
                                                   const std::function<void(TomlSection&)>& read) {
   const Result<std::string> content = read_file(file);
   if (!content) return tl::unexpected(content.error());
+  return read_toml_text(*content, file, read);
+}
+
+std::vector<data::Finding> read_toml_text(const std::string& text,
+                                          const std::filesystem::path& file,
+                                          const std::function<void(TomlSection&)>& read) {
   std::vector<data::Finding> findings;
-  if (const auto flat = check_nesting(*content); !flat) {
+  if (const auto flat = check_nesting(text); !flat) {
     findings.push_back({file.string(), 0, 0, flat.error().problem, flat.error().remedy});
     return findings;
   }
   try {
-    const toml::table parsed = toml::parse(*content, file.string());
+    const toml::table parsed = toml::parse(text, file.string());
     TomlSection root(parsed, "", file.string(), findings);
     read(root);
     std::ranges::stable_sort(findings, earlier);

@@ -17,6 +17,11 @@ namespace flexspline::studies {
 Result<std::vector<data::Finding>> read_toml_root(const std::filesystem::path& file,
                                                   const std::function<void(TomlSection&)>& read);
 
+/// The same of text that was read from there.
+std::vector<data::Finding> read_toml_text(const std::string& text,
+                                          const std::filesystem::path& file,
+                                          const std::function<void(TomlSection&)>& read);
+
 /// Refuses any other schema than this one.
 void check_schema(TomlSection& root, std::string_view schema);
 

@@ -32,6 +32,12 @@ class TomlSection {
   std::optional<TomlSection> table(std::string_view key);
   std::vector<TomlSection> tables(std::string_view key);
   const toml::node* node(std::string_view key);
+  /// A table that is not there, as if it stood empty under that key.
+  TomlSection absent(std::string_view key, const toml::table& nothing) const {
+    return {nothing, name_of(key), file_, *findings_};
+  }
+  /// Whether nothing was refused so far, in the whole file.
+  bool clean() const { return findings_->empty(); }
 
   /// Every key no getter asked for is an error. Call it last.
   void refuse_unknown_keys();

@@ -25,17 +25,19 @@ std::vector<NamedLoop> loops_to_record(const InputPlan& input) {
   return loops;
 }
 
-Result<PreparedInput> record_on_bench(const StudyConfig& study, const InputPlan& input) {
+Result<PreparedInput> record_on_bench(const InputPlan& input) {
   const Result<const data::TruthRow*> row = data::find_truth(input.input->truth);
   if (!row) return tl::unexpected(row.error());
   PreparedInput prepared;
-  prepared.plan = &input;
-  prepared.truth = (*row)->make();
+  prepared.plan = input;
+  auto truth = data::strengthened((*row)->make(), input.input->strength);
+  if (!truth) return tl::unexpected(truth.error());
+  prepared.truth = std::move(*truth);
   prepared.says = (*row)->summary;
   prepared.source = (*row)->source;
   std::vector<Recording> measured;
   std::vector<KnownTruth> truths;
-  const BenchConfig& bench = study.bench_of(*input.input);
+  const BenchConfig& bench = input.study->bench_of(*input.input);
   for (NamedLoop& named : loops_to_record(input)) {
     const data::BenchExcitation excitation{named.loop.amplitude, named.loop.frequency_hz,
                                            bench.cycles, bench.samples_per_cycle};
@@ -62,7 +64,7 @@ Result<PreparedInput> take_from_dataset(const RecordingSet& set, const InputPlan
   Result<std::vector<TorsionRecord>> records = torsion_records(set);
   if (!records) return tl::unexpected(records.error());
   PreparedInput prepared;
-  prepared.plan = &input;
+  prepared.plan = input;
   prepared.rig = set.rig;
   prepared.says = set.note.empty() ? note : fmt::format("{}; {}", set.note, note);
   prepared.source = set.source;
@@ -84,7 +86,7 @@ Result<PreparedInput> prepare_input(const StudyPlan& study, const InputPlan& inp
   const auto set = study.datasets.find(input.input->id);
   Result<PreparedInput> prepared =
       set == study.datasets.end()
-          ? record_on_bench(*study.study, input)
+          ? record_on_bench(input)
           : take_from_dataset(set->second, input, study.notes.at(input.input->id));
   if (!prepared) return tl::unexpected(in_context(prepared.error(), "input " + input.key));
   return prepared;

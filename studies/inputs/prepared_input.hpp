@@ -25,7 +25,7 @@ struct StudyRecording {
 
 /// All recordings of one input and replicate.
 struct PreparedInput {
-  const InputPlan* plan = nullptr;
+  InputPlan plan;
   Rig rig = Rig::locked;
   std::string says;  ///< what the input is, in a sentence
   std::string source;

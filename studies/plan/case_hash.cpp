@@ -10,36 +10,34 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json recordings_json(const StudyPlan& plan, const InputConfig& input, std::uint64_t seed) {
+/// Where recordings come from: data by their content.
+ordered_json recordings_json(const StudyPlan& plan, const StudyConfig& study,
+                             const InputConfig& input) {
   const auto set = plan.datasets.find(input.id);
   if (set != plan.datasets.end()) return {{"dataset_sha256", set->second.sha256}};
-  return {{"truth", input.truth}, {"bench", to_json(plan.study->bench_of(input))}, {"seed", seed}};
-}
-
-/// Everything that an estimate depends on, but for the program: its data by their content.
-ordered_json fit_json(const StudyPlan& plan, const CasePlan& one) {
-  const Grid* grid = plan.study->find_grid(one.estimator->train);
-  return {{"recordings", recordings_json(plan, *one.input, one.seed)},
-          {"train", one.train},
-          {"loops", grid != nullptr ? to_json(grid->loops) : ordered_json::array()},
-          {"steady", one.estimator->steady},
-          {"method", one.estimator->method},
-          {"model", one.estimator->model ? to_json(*one.estimator->model) : ordered_json()},
-          {"options", to_json(one.estimator->options)}};
+  return {{"truth", input.truth},
+          {"strength", input.strength},
+          {"bench", to_json(study.bench_of(input))}};
 }
 
 }  // namespace
 
-std::string fit_hash(const StudyPlan& plan, const CasePlan& one) {
-  return data::sha256_hex(fit_json(plan, one).dump());
+std::string fit_hash(const StudyPlan& plan, const StudyConfig& study, const InputConfig& input,
+                     const EstimatorConfig& estimator, const CellPlan& cell) {
+  const Grid* grid = study.find_grid(estimator.train);
+  const ordered_json text = {
+      {"recordings", recordings_json(plan, study, input)},
+      {"train", cell.train},
+      {"loops", grid != nullptr ? to_json(grid->loops) : ordered_json::array()},
+      {"steady", estimator.steady},
+      {"method", estimator.method},
+      {"model", estimator.model ? to_json(*estimator.model) : ordered_json()},
+      {"options", to_json(estimator.options)}};
+  return data::sha256_hex(text.dump());
 }
 
-std::string case_hash(const StudyPlan& plan, const CasePlan& one, const std::string& build_id) {
-  const ordered_json text = {{"build", build_id},
-                             {"key", one.key},
-                             {"fit", fit_json(plan, one)},
-                             {"holdout", one.holdout}};
-  return data::sha256_hex(text.dump());
+std::string case_hash(const CellPlan& cell) {
+  return data::sha256_hex(ordered_json(cell.holdout).dump());
 }
 
 std::string input_hash(const StudyPlan& plan, const InputPlan& input, const std::string& build_id) {
@@ -48,7 +46,8 @@ std::string input_hash(const StudyPlan& plan, const InputPlan& input, const std:
                              {"key", input.key},
                              {"title", input.input->title},
                              {"split", note == plan.notes.end() ? "" : note->second},
-                             {"recordings", recordings_json(plan, *input.input, input.seed)},
+                             {"recordings", recordings_json(plan, *input.study, *input.input)},
+                             {"seed", input.seed},
                              {"train", to_json(input.train_loops)},
                              {"holdout", to_json(input.holdout_loops)}};
   return data::sha256_hex(text.dump());

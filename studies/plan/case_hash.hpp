@@ -2,19 +2,19 @@
 
 #include <string>
 
-#include "flexspline/studies/plan.hpp"
+#include "plan/variant_plan.hpp"
 
 namespace flexspline::studies {
 
-/// SHA-256 over what an estimate depends on: recordings by their content, which are trained on, the
-/// method with its options. Cases that share it have the same estimate.
-std::string fit_hash(const StudyPlan& plan, const CasePlan& one);
+/// SHA-256 over what an estimate depends on but for the seed: recordings by their content, which
+/// are trained on, the method with its options.
+std::string fit_hash(const StudyPlan& plan, const StudyConfig& study, const InputConfig& input,
+                     const EstimatorConfig& estimator, const CellPlan& cell);
 
-/// SHA-256 over everything that a case's result depends on: where its recordings come from, which
-/// are trained on and held out, the seed, the method with its options, and the program.
-std::string case_hash(const StudyPlan& plan, const CasePlan& one, const std::string& build_id);
+/// The same over what the comparison of an estimate depends on beyond it.
+std::string case_hash(const CellPlan& cell);
 
-/// The same of an input's artefact.
+/// SHA-256 over everything that an input's artefact depends on.
 std::string input_hash(const StudyPlan& plan, const InputPlan& input, const std::string& build_id);
 
 }  // namespace flexspline::studies

@@ -7,70 +7,10 @@
 #include "flexspline/core/torsion_record.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/studies/plan.hpp"
-#include "plan/case_hash.hpp"
-#include "plan/motion_range.hpp"
+#include "plan/variant_plan.hpp"
 
 namespace flexspline::studies {
 namespace {
-
-constexpr double kSecondsPerSample = 5e-5;  // order of magnitude, for plan's estimate only
-constexpr double kBytesPerRecording = 15e3;
-
-bool uses(const EstimatorConfig& estimator, const InputConfig& input) {
-  return estimator.inputs.empty() ||
-         std::ranges::find(estimator.inputs, input.id) != estimator.inputs.end();
-}
-
-void add_once(std::vector<Loop>& loops, const std::vector<Loop>& more) {
-  for (const Loop& loop : more) {
-    if (std::ranges::find(loops, loop) == loops.end()) loops.push_back(loop);
-  }
-}
-
-std::vector<Loop> loops_of(const StudyConfig& study, const std::string& grid) {
-  const Grid* found = study.find_grid(grid);
-  return found == nullptr ? std::vector<Loop>{} : found->loops;
-}
-
-void train_on_bench(CasePlan& plan, const StudyConfig& study) {
-  for (const Loop& loop : loops_of(study, plan.estimator->train)) {
-    plan.train.push_back(recording_id(loop));
-    plan.train_samples += static_cast<long>(study.bench.cycles) * study.bench.samples_per_cycle;
-  }
-  for (const Loop& loop : loops_of(study, plan.input->holdout)) {
-    plan.holdout.push_back("holdout/" + recording_id(loop));
-  }
-}
-
-/// The training recording with the largest motion, among those with a frequency where there are
-/// any.
-const Recording* largest(const RecordingSet& set, const std::vector<TorsionRecord>& records) {
-  const Recording* best = nullptr;
-  std::pair<bool, double> rank{false, -1.0};
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    if (set.recordings[i].split != Split::train) continue;
-    const std::pair own{records[i].frequency_hz.has_value(), motion_range(records[i])};
-    if (best != nullptr && own <= rank) continue;
-    best = &set.recordings[i];
-    rank = own;
-  }
-  return best;
-}
-
-Result<void> train_on_dataset(CasePlan& plan, const RecordingSet& set) {
-  const auto records = torsion_records(set);
-  if (!records) return tl::unexpected(records.error());
-  const Recording* one = plan.estimator->train == kTrainOne ? largest(set, *records) : nullptr;
-  for (const Recording& recording : set.recordings) {
-    if (recording.split == Split::holdout)
-      plan.holdout.push_back(recording.id);
-    else if (one == nullptr || one == &recording) {
-      plan.train.push_back(recording.id);
-      plan.train_samples += static_cast<long>(recording.time.size());
-    }
-  }
-  return {};
-}
 
 /// Exactly the recordings named are held out.
 Result<void> hold_out(const std::vector<std::string>& ids, RecordingSet& set, std::string& note) {
@@ -127,35 +67,44 @@ Result<void> load_datasets(StudyPlan& plan) {
   return {};
 }
 
-InputPlan plan_input(const StudyConfig& study, const InputConfig& input, int replicate) {
-  InputPlan plan;
-  plan.key = replicate == 0 ? input.id : fmt::format("{}-r{}", input.id, replicate);
-  plan.input = &input;
-  plan.replicate = replicate;
-  plan.seed = seed_of(study, replicate);
-  if (input.truth.empty()) return plan;
-  for (const EstimatorConfig& estimator : study.estimators) {
-    if (uses(estimator, input)) add_once(plan.train_loops, loops_of(study, estimator.train));
+/// The sweeps that an input's recordings, or an estimator's fit of them, depend on.
+bool depends(const SweepKey& key, const StudyConfig& study, const InputConfig& input,
+             const EstimatorConfig& estimator) {
+  const std::size_t dot = key.path.find('.');
+  const std::string head = key.path.substr(0, dot);
+  const std::string rest = dot == std::string::npos ? "" : key.path.substr(dot + 1);
+  const auto names = [&](const std::string& id) {
+    return rest.starts_with("*.") || rest.starts_with(id + ".");
+  };
+  const bool recorded_here = !input.truth.empty();
+  if (head == "bench" || head == "seed") return recorded_here;
+  if (head == "input") return names(input.id);
+  if (head == "estimator") return names(estimator.written_id());
+  if (head == "grid" && study.kind == "grid") {
+    return recorded_here && (names(estimator.train) || names(input.holdout));
   }
-  plan.holdout_loops = loops_of(study, input.holdout);
-  return plan;
+  return true;
 }
 
-Result<CasePlan> plan_case(const StudyPlan& whole, const InputPlan& input,
-                           const EstimatorConfig& estimator) {
-  CasePlan plan;
-  plan.key = fmt::format("{}--{}--r{}", input.input->id, estimator.id, input.replicate);
-  plan.input = input.input;
-  plan.estimator = &estimator;
-  plan.replicate = input.replicate;
-  plan.seed = input.seed;
-  const auto set = whole.datasets.find(input.input->id);
-  if (set == whole.datasets.end()) {
-    train_on_bench(plan, *whole.study);
-  } else if (const auto trained = train_on_dataset(plan, set->second); !trained) {
-    return tl::unexpected(trained.error());
+bool depends(const SweepAxis& sweep, const StudyConfig& study, const InputConfig& input,
+             const EstimatorConfig& estimator) {
+  return std::ranges::any_of(
+      sweep.keys, [&](const SweepKey& key) { return depends(key, study, input, estimator); });
+}
+
+std::vector<Cell> cells_of(const StudyConfig& study) {
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i < study.inputs.size(); ++i) {
+    for (std::size_t e = 0; e < study.estimators.size(); ++e) {
+      if (!uses(study.estimators[e], study.inputs[i])) continue;
+      Cell cell{i, e, {}};
+      for (const SweepAxis& sweep : study.sweeps) {
+        cell.swept.push_back(depends(sweep, study, study.inputs[i], study.estimators[e]));
+      }
+      cells.push_back(std::move(cell));
+    }
   }
-  return plan;
+  return cells;
 }
 
 }  // namespace
@@ -164,27 +113,23 @@ std::uint64_t seed_of(const StudyConfig& study, int replicate) {
   return study.seed + static_cast<std::uint64_t>(replicate);
 }
 
+bool uses(const EstimatorConfig& estimator, const InputConfig& input) {
+  return estimator.inputs.empty() ||
+         std::ranges::find(estimator.inputs, input.id) != estimator.inputs.end();
+}
+
 Result<StudyPlan> plan_study(const StudyConfig& study, const std::string& build_id) {
   StudyPlan plan;
   plan.study = &study;
+  plan.build_id_ = build_id;
+  plan.variants_ = std::make_shared<VariantCache>();
   if (const auto loaded = load_datasets(plan); !loaded) return tl::unexpected(loaded.error());
-  for (int replicate = 0; replicate < study.replicates; ++replicate) {
-    for (const InputConfig& input : study.inputs) {
-      InputPlan prepared = plan_input(study, input, replicate);
-      prepared.depends_on = input_hash(plan, prepared, build_id);
-      for (const EstimatorConfig& estimator : study.estimators) {
-        if (!uses(estimator, input)) continue;
-        Result<CasePlan> planned = plan_case(plan, prepared, estimator);
-        if (!planned) return tl::unexpected(planned.error());
-        planned->fit_depends_on = fit_hash(plan, *planned);
-        planned->depends_on = case_hash(plan, *planned, build_id);
-        plan.estimated_seconds += kSecondsPerSample * static_cast<double>(planned->train_samples);
-        plan.estimated_bytes += kBytesPerRecording * static_cast<double>(planned->train.size() +
-                                                                         planned->holdout.size());
-        plan.cases.push_back(std::move(*planned));
-      }
-      plan.inputs.push_back(std::move(prepared));
-    }
+  plan.cells = cells_of(study);
+  plan.number_cells();
+  const auto first = plan.variant(0);
+  if (first->problem) return tl::unexpected(*first->problem);
+  for (const InputConfig& input : first->study->inputs) {
+    plan.inputs.push_back(first->input(plan, input, 0));
   }
   return plan;
 }

@@ -53,8 +53,9 @@ Result<void> write_ro_crate(const StudyPlan& plan,
                    {"description", set.source},
                    {"sha256", set.sha256}});
   }
-  for (const CasePlan& one : plan.cases) {
-    add("result", file("cases/" + one.key + ".json", one.key, "application/json"));
+  for (const std::filesystem::path& one : journals_in(folder / "journals")) {
+    add("result", file("journals/" + one.filename().string(),
+                       "Results of cases, a line each (flexspline-journal/1)", "text/plain"));
   }
   add("result", file("results.nc", "Errors and parameters", "application/netcdf"));
   add("result", file("report/index.html", "Report", "text/html"));

@@ -1,6 +1,7 @@
 #include "run/compute_case.hpp"
 
 #include <exception>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -72,6 +73,8 @@ Result<Estimate> estimate_case(const CasePlan& plan, const Result<PreparedInput>
   if (!input) return tl::unexpected(input.error());
   try {
     return estimate_of(plan, *input);
+  } catch (const std::bad_alloc&) {
+    throw;  // the engine's to say
   } catch (const std::exception& error) {
     return defect(plan, error);
   }
@@ -82,6 +85,8 @@ CaseOutcome compare_case(const CasePlan& plan, const Result<PreparedInput>& inpu
   if (!estimate) return {tl::unexpected(estimate.error()), {}};
   try {
     return compare(plan, *input, estimate);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     return {defect(plan, error), {}};
   }

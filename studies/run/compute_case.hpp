@@ -4,11 +4,12 @@
 
 namespace flexspline::studies {
 
-/// Estimates on the training recordings of a case. Never throws: what fails is in the result.
+/// Estimates on the training recordings of a case. What fails is in the result, but for
+/// std::bad_alloc.
 Result<Estimate> estimate_case(const CasePlan& plan, const Result<PreparedInput>& input);
 
-/// Compares an estimate on the recordings that the case trains on and the held-out ones. Never
-/// throws: what fails is in the outcome.
+/// Compares an estimate on the recordings that the case trains on and the held-out ones. The
+/// same.
 CaseOutcome compare_case(const CasePlan& plan, const Result<PreparedInput>& input,
                          const Result<Estimate>& estimate);
 

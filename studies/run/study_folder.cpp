@@ -7,27 +7,39 @@
 
 #include "config/json_to_toml.hpp"
 #include "config/study_json.hpp"
+#include "config/study_source.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
-#include "results/results_table.hpp"
 #include "run/artefact_json.hpp"
 
 namespace flexspline::studies {
 
 using nlohmann::ordered_json;
 
-std::optional<Earlier> find_valid(const std::filesystem::path& file, std::string_view schema,
-                                  const std::string& depends_on) {
+namespace {
+
+constexpr std::size_t kMostListed = 10'000;  // cases by name
+
+/// What a study that is more than its grid is read back from.
+void add_source(const StudyConfig& study, ordered_json& lock) {
+  if (study.source == nullptr || (study.kind == "grid" && study.sweeps.empty())) return;
+  std::error_code ignored;
+  const auto place = [&](const std::filesystem::path& path) {
+    return std::filesystem::absolute(path, ignored).lexically_normal().generic_string();
+  };
+  lock["source"] = {{"file", place(study.source->file)},
+                    {"data_root", place(study.source->data_root)},
+                    {"model_root", place(study.source->model_root)},
+                    {"text", study.source->text}};
+}
+
+}  // namespace
+
+bool is_valid(const std::filesystem::path& file, std::string_view schema,
+              const std::string& depends_on) {
   const auto artefact = data::read_artefact(file, schema);
-  if (!artefact || artefact->value("depends_on", "") != depends_on) return std::nullopt;
-  Earlier earlier;
-  earlier.failed = artefact->value("status", "done") == "failed";
-  if (earlier.failed && (*artefact)["failure"].is_object()) {
-    earlier.reason = (*artefact)["failure"].value("problem", "");
-  }
-  if (schema == kCaseSchema) earlier.row = row_of(*artefact);
-  return earlier;
+  return artefact && artefact->value("depends_on", "") == depends_on;
 }
 
 Result<void> write_lock(const StudyPlan& plan, const RunSettings& settings) {
@@ -42,7 +54,14 @@ Result<void> write_lock(const StudyPlan& plan, const RunSettings& settings) {
   for (int replicate = 0; replicate < plan.study->replicates; ++replicate) {
     lock["seeds"].push_back(seed_of(*plan.study, replicate));
   }
-  for (const CasePlan& one : plan.cases) lock["cases"][one.key] = one.depends_on;
+  lock["count"] = plan.size();
+  if (plan.size() <= kMostListed) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      const CasePlan one = plan.at(i);
+      lock["cases"][one.key] = one.depends_on;
+    }
+  }
+  add_source(*plan.study, lock);
   return write_file(
       settings.folder / "study.lock.toml",
       "# What this folder was computed from. Written by flexspline.\n" + toml_text(lock));

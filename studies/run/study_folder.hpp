@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <string>
 
@@ -10,16 +9,9 @@
 
 namespace flexspline::studies {
 
-/// What an artefact of an earlier run says, as far as a later run asks.
-struct Earlier {
-  bool failed = false;
-  std::string reason;
-  std::optional<CaseRow> row;  ///< of a case that did not fail
-};
-
-/// The artefact at a path, if it is whole and depends on exactly the same things.
-std::optional<Earlier> find_valid(const std::filesystem::path& file, std::string_view schema,
-                                  const std::string& depends_on);
+/// Whether there is an artefact at a path, whole and dependent on exactly the same things.
+bool is_valid(const std::filesystem::path& file, std::string_view schema,
+              const std::string& depends_on);
 
 /// study.lock.toml: the configuration as understood, seeds, hashes, versions. Errors: cannot_write.
 Result<void> write_lock(const StudyPlan& plan, const RunSettings& settings);

@@ -53,8 +53,8 @@ void TrialRun::plan_cases() {
   summary_.run.cases = cases_.size();
   for (const TrialCase& one : cases_) {
     kept.insert(one.key + ".json");
-    if (find_valid(file_of(one), kTrialCaseSchema,
-                   dependencies_of(trial_, one, settings_.run.build_id))) {
+    if (is_valid(file_of(one), kTrialCaseSchema,
+                 dependencies_of(trial_, one, settings_.run.build_id))) {
       ++summary_.run.reused;
       continue;
     }
@@ -87,8 +87,13 @@ void TrialRun::finish_case(const std::string& key, const Result<ordered_json>& a
     if (run.log) run.log(says);
   }
   if (!run.progress) return;
-  run.progress({summary_.run.computed + summary_.run.reused, cases_.size(),
-                summary_.run.failed.size(), seconds()});
+  run.progress({summary_.run.computed + summary_.run.reused,
+                cases_.size(),
+                summary_.run.failed.size(),
+                seconds(),
+                0.0,
+                {},
+                0.0});
 }
 
 /// Every case from its artefact, so that a run that computed nothing says the same.
@@ -114,6 +119,7 @@ Result<TrialSummary> TrialRun::operator()() {
   if (error_) return tl::unexpected(*error_);
   summary_.run.interrupted = !all;
   gather();
+  summary_.run.failures = summary_.run.failed.size();
   summary_.run.seconds = seconds();
   if (summary_.run.interrupted) return summary_;
   const auto written = data::write_artefact(folder() / "trial.json",

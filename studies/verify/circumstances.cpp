@@ -66,8 +66,8 @@ void flatten(const json& from, const std::string& path, std::map<std::string, st
 
 /// Hashes of what is told by its parts, names of data sets, and the build told twice.
 bool is_told_elsewhere(const std::string& path) {
-  return path.starts_with("cases/") || path == "study_sha256" || path == "schema" ||
-         path == "versions/build" || path.ends_with("/name");
+  return path.starts_with("cases/") || path.starts_with("source/") || path == "study_sha256" ||
+         path == "schema" || path == "versions/build" || path.ends_with("/name");
 }
 
 }  // namespace

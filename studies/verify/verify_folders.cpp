@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "flexspline/core/nesting.hpp"
+#include "flexspline/core/case_store.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/manifest.hpp"
@@ -20,32 +20,49 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+constexpr std::string_view kCases = "cases/";
+
+/// A folder of artefacts, with what it holds of cases.
+struct Folder {
+  fs::path path;
+  CaseStore cases;
+};
+
 /// Artefacts of a folder by their place in it; those that are drawn from others are left out.
-std::set<std::string> artefacts_in(const fs::path& folder) {
+std::set<std::string> artefacts_in(const Folder& folder) {
   std::set<std::string> names;
-  for (const char* name : {"paper.json", "diagnosis.json", "trial.json"}) {
-    if (file_exists(folder / name)) names.insert(name);
+  for (const char* name : {"paper.json", "kind.json", "diagnosis.json", "trial.json"}) {
+    if (file_exists(folder.path / name)) names.insert(name);
   }
   std::error_code ignored;
-  for (const char* part : {"inputs", "cases"}) {
-    for (const auto& entry : fs::directory_iterator(folder / part, ignored)) {
-      const fs::path& path = entry.path();
-      if (path.extension() == ".json")
-        names.insert(std::string(part) + "/" + path.filename().string());
-    }
+  for (const auto& entry : fs::directory_iterator(folder.path / "inputs", ignored)) {
+    const fs::path& path = entry.path();
+    if (path.extension() == ".json") names.insert("inputs/" + path.filename().string());
+  }
+  for (const std::string& key : folder.cases.keys()) {
+    names.insert(std::string(kCases) + key + ".json");
   }
   return names;
 }
 
+/// The text of an artefact, wherever the folder keeps it.
+Result<std::string> text_of(const Folder& folder, const std::string& name) {
+  if (!name.starts_with(kCases)) return read_file(folder.path / name);
+  const std::string file = name.substr(kCases.size());
+  return folder.cases.read(file.substr(0, file.size() - std::string_view(".json").size()))
+      .map([](const StoredCase& one) { return one.artefact; });
+}
+
 /// An artefact whose checksum holds, whatever its schema is.
-Result<ordered_json> read_any(const fs::path& file) {
-  const auto text = read_file(file);
+Result<ordered_json> read_any(const Folder& folder, const std::string& name) {
+  const auto text = text_of(folder, name);
   if (!text) return tl::unexpected(text.error());
+  const fs::path file = folder.path / name;
   const auto content = data::parse_json(*text, file);
   if (!content) return content;
   const bool named =
       content->is_object() && content->contains("schema") && content->at("schema").is_string();
-  return data::read_artefact(file, named ? content->at("schema").get<std::string>() : "");
+  return data::parse_artefact(*text, file, named ? content->at("schema").get<std::string>() : "");
 }
 
 ArtefactCheck broken(const std::string& name, const char* whose, const Error& error) {
@@ -58,11 +75,11 @@ ArtefactCheck broken(const std::string& name, const char* whose, const Error& er
   return check;
 }
 
-ArtefactCheck check_one(const std::string& name, const fs::path& folder, const fs::path& against,
+ArtefactCheck check_one(const std::string& name, const Folder& folder, const Folder& against,
                         bool changed) {
-  const auto before = read_any(folder / name);
+  const auto before = read_any(folder, name);
   if (!before) return broken(name, "the folder to verify", before.error());
-  const auto after = read_any(against / name);
+  const auto after = read_any(against, name);
   if (!after) return broken(name, "the run to compare with", after.error());
   ArtefactCheck check = compare_artefacts(*before, *after, changed);
   check.artefact = name;
@@ -168,16 +185,28 @@ Verification verify_on_other_data(const fs::path& folder, std::vector<Circumstan
 
 Result<Verification> verify_folders(const fs::path& folder, const fs::path& against) {
   Verification verification{folder.string(), against.string(), {}, {}, {}, {}};
-  std::set<std::string> names = artefacts_in(folder);
+  for (const fs::path& path : {folder, against}) {
+    std::error_code error;
+    const bool there = fs::exists(path, error);
+    if (there || !error) continue;
+    return failure(ErrorCode::input_missing,
+                   fmt::format("cannot use '{:.200}': {}", path.string(), error.message()),
+                   "check the path");
+  }
+  auto own = CaseStore::open(folder);
+  auto other = CaseStore::open(against);
+  if (!own || !other) return tl::unexpected(own ? other.error() : own.error());
+  const Folder before{folder, std::move(*own)};
+  const Folder after{against, std::move(*other)};
+  std::set<std::string> names = artefacts_in(before);
   if (names.empty()) {
     return failure(ErrorCode::input_missing, folder.string() + " holds no artefact to verify",
                    "give the folder that run, fit, compare, diagnose or trial wrote");
   }
-  names.merge(artefacts_in(against));
+  names.merge(artefacts_in(after));
   verification.changed = changed_circumstances(folder, against);
   for (const std::string& name : names) {
-    verification.artefacts.push_back(
-        check_one(name, folder, against, !verification.changed.empty()));
+    verification.artefacts.push_back(check_one(name, before, after, !verification.changed.empty()));
     verification.level = std::max(verification.level, verification.artefacts.back().level);
   }
   verification.says = result_of(verification) + " " + explanation_of(verification);

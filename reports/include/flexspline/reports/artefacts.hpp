@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "flexspline/core/error.hpp"
+#include "flexspline/reports/figure.hpp"
+#include "flexspline/reports/table.hpp"
 
 namespace flexspline::reports {
 
@@ -164,12 +166,22 @@ struct Paper {
   std::vector<PaperFigure> figures;
 };
 
+/// flexspline-kind/1: what a study of a kind says.
+struct Kind {
+  std::string kind, question, says;
+  std::vector<std::string> notes;
+  std::vector<Figure> figures;
+  std::vector<Table> tables;
+  double cases = kAbsent, done = kAbsent, failed = kAbsent;
+};
+
 /// Everything that lies in a study's folder.
 struct Artefacts {
   std::string lock;  ///< study.lock.toml as it stands
   std::vector<Input> inputs;
   std::vector<Case> cases;
   std::optional<Paper> paper;
+  std::optional<Kind> kind;
   std::vector<std::string> unreadable;  ///< "cases/a.json: reason" of every one that is left out
 };
 

@@ -115,7 +115,8 @@ struct ConcealedAnswer {
 std::string key_of(const data::HiddenParameter& parameter);
 
 /// Keys as those of practice cases: rig, effects, size, coordinate, info, noise_std_nm, twins,
-/// tau_max; and generator, source, change, seed, equation, names, place, disturbances, best_rmse_nm, dataset_sha256.
+/// tau_max; and generator, source, change, seed, equation, names, place, disturbances,
+/// best_rmse_nm, dataset_sha256.
 nlohmann::ordered_json to_json(const ConcealedAnswer& answer);
 
 /// What scoring needs of an answer. Errors: bad_data, naming the key.

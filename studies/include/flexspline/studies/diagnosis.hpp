@@ -152,7 +152,8 @@ struct Diagnosis {
   std::vector<DiagnosedSeries> series;
   std::vector<std::string> notes;
   std::vector<data::SanityFinding> mistaken;  ///< what looks like a mistake, not like physics
-  /// The whole rig: its constants, the baseline and the accepted effects; none where nothing is decided.
+  /// The whole rig: its constants, the baseline and the accepted effects; none where nothing is
+  /// decided.
   std::optional<RigModel> model;
   DisplayUnits display;
   double seconds = kNotComputed;

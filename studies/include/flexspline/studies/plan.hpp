@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,11 +14,13 @@
 
 namespace flexspline::studies {
 
-/// One estimator on one input and replicate: a cell of the study.
+/// One estimator on one input and replicate, at one point of every sweep: a case of the study.
 struct CasePlan {
-  std::string key;  ///< "<input>--<estimator>--r<replicate>"
+  std::string key;  ///< "<input>--<estimator>--r<replicate>", with "--v<variant>" where it is swept
+  std::shared_ptr<const StudyConfig> study;  ///< of its variant; input and estimator are its
   const InputConfig* input = nullptr;
   const EstimatorConfig* estimator = nullptr;
+  std::size_t variant = 0;
   int replicate = 0;
   std::uint64_t seed = 0;
   std::vector<std::string> train;    ///< ids of the training recordings
@@ -24,11 +28,13 @@ struct CasePlan {
   long train_samples = 0;
   std::string fit_depends_on;  ///< SHA-256 over what its estimate depends on: equal, computed once
   std::string depends_on;      ///< SHA-256 over everything the case's result depends on
+  std::optional<Error> problem{};  ///< why its variant of the study cannot be
 };
 
 /// One input and replicate with its recordings.
 struct InputPlan {
-  std::string key;  ///< "<input>" for replicate 0, else "<input>-r<replicate>"
+  std::string key;  ///< "<input>"; what it is for other replicates and variants has no file
+  std::shared_ptr<const StudyConfig> study;
   const InputConfig* input = nullptr;
   int replicate = 0;
   std::uint64_t seed = 0;
@@ -37,15 +43,54 @@ struct InputPlan {
   std::string depends_on;
 };
 
-/// What a run of a study will do. Points into the study, which has to outlive it.
-struct StudyPlan {
+/// Where a case stands in the plan.
+struct CasePlace {
+  std::size_t variant = 0;
+  std::size_t replicate = 0;
+  std::size_t cell = 0;  ///< number of the pair of input and estimator
+};
+
+/// A pair of input and estimator, by their numbers, and the sweeps that it depends on: it has cases
+/// at every point of those, and at the first point of the others.
+struct Cell {
+  std::size_t input = 0;
+  std::size_t estimator = 0;
+  std::vector<bool> swept{};  ///< a sweep each
+};
+
+struct VariantPlan;
+struct VariantCache;
+
+/// What a run of a study will do. Cases are made when they are asked for, so that a plan of a
+/// million takes no more room than one of ten. Points into the study, which has to outlive it.
+class StudyPlan {
+ public:
   const StudyConfig* study = nullptr;
-  std::vector<InputPlan> inputs;
-  std::vector<CasePlan> cases;
+  std::vector<InputPlan> inputs;                 ///< variant 0 and replicate 0 of each
   std::map<std::string, RecordingSet> datasets;  ///< by input id, split already decided
   std::map<std::string, std::string> notes;      ///< by input id: how the recordings were split
-  double estimated_seconds = 0.0;                ///< on one worker, by a rule of thumb
-  double estimated_bytes = 0.0;
+  std::vector<Cell> cells;
+
+  /// Cases. They are numbered by variant, replicate, input and estimator, the last one fastest.
+  std::size_t size() const { return first_.back() * static_cast<std::size_t>(study->replicates); }
+  CasePlace place(std::size_t number) const;
+  CasePlan at(std::size_t number) const;
+  /// The input of a case, with the recordings that every estimator needs of it.
+  InputPlan input_of(const CasePlan& one) const;
+  /// Cases of a cell, and how many different fits they are.
+  std::size_t cases_of(const Cell& cell) const;
+  std::size_t unique_fits() const;
+  const std::string& build_id() const { return build_id_; }
+
+ private:
+  friend Result<StudyPlan> plan_study(const StudyConfig& study, const std::string& build_id);
+
+  void number_cells();
+  std::shared_ptr<const VariantPlan> variant(std::size_t number) const;
+
+  std::string build_id_;
+  std::vector<std::size_t> first_{0};  ///< cells before each variant
+  std::shared_ptr<VariantCache> variants_;
 };
 
 /// Plans every case. build_id names the program: results of another build are not taken over.

@@ -2,9 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "flexspline/core/error.hpp"
@@ -47,8 +51,9 @@ struct InputConfig {
   std::string holdout;            ///< id of the grid that is evaluated and never trained on
   /// Of a data set: exactly these recordings are held out, whatever it marks itself.
   std::optional<std::vector<std::string>> held_out{};
-  std::size_t rows = data::kMostRows;  ///< of a data set: at most, of a recording; 0: all
-  std::optional<BenchConfig> bench{};  ///< of a truth: instead of the study's
+  std::size_t rows = data::kMostRows;        ///< of a data set: at most, of a recording; 0: all
+  std::optional<BenchConfig> bench{};        ///< of a truth: instead of the study's
+  std::map<std::string, double> strength{};  ///< of a truth: factors of its parts
 };
 
 /// What an estimator of a study trains on, of a data set.
@@ -65,6 +70,10 @@ struct EstimatorConfig {
   estimators::Options options;
   std::vector<std::string> inputs;                ///< only these; empty: all
   std::optional<estimators::GivenModel> model{};  ///< for methods that take one
+  /// Of one that a kind made out of another: id of the estimator as the study file has it.
+  std::string made_from{};
+
+  const std::string& written_id() const { return made_from.empty() ? id : made_from; }
 };
 
 /// One step of an ablation: two estimators that differ in one respect.
@@ -75,11 +84,40 @@ struct ContrastConfig {
   std::string to;
 };
 
+/// What a sweep writes in the place of a value of the study file.
+using SweepValue = std::variant<double, std::int64_t, bool, std::string>;
+
+/// A key of the study file that takes several values: "bench.cycles",
+/// "estimator.<id>.options.samples"; `*` stands for every id.
+struct SweepKey {
+  std::string path;
+  std::string unit;  ///< empty: a plain number or word
+};
+
+/// Keys that are set together, point by point.
+struct SweepAxis {
+  std::string id;
+  std::vector<SweepKey> keys;
+  std::vector<std::vector<SweepValue>> points;  ///< a value a key
+};
+
+/// What a kind was told in its own table, for its answer.
+struct KindSettings {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> words;
+  std::map<std::string, std::vector<double>> lists;
+  std::map<std::string, std::vector<std::string>> names;
+};
+
+/// The study file as it was parsed: what variants are made from.
+struct StudySource;
+
 /// A study as read and understood. SI units.
 struct StudyConfig {
   std::filesystem::path file;
   std::string name;
   std::string title;
+  std::string kind = "grid";  ///< id of a row of studies/kinds
   std::uint64_t seed = 1;
   int replicates = 1;
   bool paper = false;  ///< recompute the facts of Dhaouadi and Ghorbel (2003) beside the cases
@@ -88,6 +126,9 @@ struct StudyConfig {
   std::vector<InputConfig> inputs;
   std::vector<EstimatorConfig> estimators;
   std::vector<ContrastConfig> contrasts;
+  std::vector<SweepAxis> sweeps;  ///< their product
+  KindSettings settings;
+  std::shared_ptr<const StudySource> source{};  ///< null for studies that no file describes
 
   const Grid* find_grid(std::string_view id) const;
   const InputConfig* find_input(std::string_view id) const;
@@ -113,6 +154,16 @@ Result<StudyReading> read_study(const std::filesystem::path& file,
 /// Errors: input_missing, or bad_data with every finding.
 Result<StudyConfig> load_study(const std::filesystem::path& file,
                                const std::filesystem::path& data_root = {});
+
+/// How many studies the sweeps make of one: the product of their points, 1 without any.
+std::size_t variants_of(const StudyConfig& study);
+
+/// Which point of every sweep a variant stands at; the last sweep runs fastest.
+std::vector<std::size_t> point_of(const StudyConfig& study, std::size_t variant);
+
+/// The study with the values of a variant in the places that the sweeps name. Variant 0 stands at
+/// the first point of every sweep. Errors: bad_data, where a value cannot stand there.
+Result<StudyConfig> variant_study(const StudyConfig& study, std::size_t variant);
 
 /// The configuration as understood, as TOML with every default written out.
 std::string describe_study(const StudyConfig& study);

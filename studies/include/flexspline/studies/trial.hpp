@@ -56,9 +56,10 @@ struct TrialCase {
   ConcealPlan plan;
 };
 
-/// Generators take turns, and with each its rigs, of those that the trial asks for; kinds come in their shares, evenly spread; every rig's effects come in turn, in
-/// an order of their own, so that all are tried about equally often. What is spliced goes through the
-/// recordings: each as it is, then changed, then with an effect of the smallest and the largest size.
+/// Generators take turns, and with each its rigs, of those that the trial asks for; kinds come in
+/// their shares, evenly spread; every rig's effects come in turn, in an order of their own, so that
+/// all are tried about equally often. What is spliced goes through the recordings: each as it is,
+/// then changed, then with an effect of the smallest and the largest size.
 std::vector<TrialCase> plan_trial(const TrialConfig& trial);
 
 /// What a case was, by what it hides.

@@ -1,0 +1,98 @@
+#include "answers/kind_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "comparison/middle_of.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::set<double> places_of(const Gathered& gathered) {
+  std::set<double> places;
+  for (const auto& [name, line] : gathered) {
+    for (const auto& [place, values] : line) places.insert(place);
+  }
+  return places;
+}
+
+}  // namespace
+
+double sweep_position(const SweepAxis& sweep, std::size_t point) {
+  const SweepValue& value = sweep.points.at(point).front();
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  return static_cast<double>(point);
+}
+
+std::string sweep_label(const SweepAxis& sweep) {
+  const SweepKey& key = sweep.keys.front();
+  return key.unit.empty() ? key.path : key.path + " / " + key.unit;
+}
+
+AnswerPanel lines_of(const Gathered& gathered, const std::string& x_label,
+                     const std::string& y_label) {
+  AnswerPanel panel;
+  panel.x_label = x_label;
+  panel.y_label = y_label;
+  const std::set<double> places = places_of(gathered);
+  panel.x_log =
+      !places.empty() && *places.begin() > 0.0 && *places.rbegin() > 10.0 * *places.begin();
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const auto& [name, line] : gathered) {
+    AnswerSeries series;
+    series.name = name;
+    for (const auto& [place, values] : line) {
+      const double median = middle_of(values);
+      if (std::isnan(median)) continue;
+      series.x.push_back(place);
+      series.y.push_back(median);
+      least = std::min(least, median);
+      most = std::max(most, median);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  panel.y_log = least > 0.0 && most > 10.0 * least;
+  return panel;
+}
+
+AnswerTable table_of(const std::string& id, const std::string& caption, const Gathered& gathered,
+                     const std::string& x_name) {
+  AnswerTable table{id, caption, {x_name}, {}};
+  for (const auto& [name, line] : gathered) table.columns.push_back(name);
+  for (const double place : places_of(gathered)) {
+    std::vector<std::variant<std::string, double>> row = {place};
+    for (const auto& [name, line] : gathered) {
+      const auto at = line.find(place);
+      row.emplace_back(at == line.end() ? kNaN : middle_of(at->second));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string extremes_sentence(const Gathered& gathered, const std::string& axis) {
+  std::string text;
+  for (const auto& [name, line] : gathered) {
+    double low = kNaN, high = kNaN, at_low = kNaN, at_high = kNaN;
+    for (const auto& [place, values] : line) {
+      const double median = middle_of(values);
+      if (std::isnan(median)) continue;
+      if (!(low <= median)) low = median, at_low = place;
+      if (!(high >= median)) high = median, at_high = place;
+    }
+    if (std::isnan(low)) continue;
+    text += fmt::format("{}{}: from {:.2g} % of peak at {} = {:.3g} to {:.2g} % at {:.3g}",
+                        text.empty() ? "" : "; ", name, low, axis, at_low, high, at_high);
+  }
+  return text.empty() ? "No case has held-out recordings." : text + ".";
+}
+
+}  // namespace flexspline::studies
