@@ -67,7 +67,9 @@ std::string content_of(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    names.push_back(entry.path().filename().string());
+    std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && name.ends_with(".part")) continue;  // somebody's file on its way
+    names.push_back(std::move(name));
   }
   std::ranges::sort(names);
   const std::size_t more = names.size() > kTold ? names.size() - kTold : 0;

@@ -13,38 +13,25 @@
 namespace flexspline::app {
 namespace {
 
-/// A live line on a terminal, else one line for every tenth of the way.
-class ProgressLine {
- public:
-  explicit ProgressLine(Console& console) : console_(&console) {}
-
-  void show(const studies::Progress& progress) {
-    const std::string text = fmt::format("{}/{} cases, {} failed, {:.1f} s", progress.done,
-                                         progress.total, progress.failed, progress.seconds);
-    console_->live(text);
-    const std::size_t tenth = 10 * progress.done / std::max<std::size_t>(1, progress.total);
-    if (!console_->is_terminal() && tenth > tenth_) console_->say(text);
-    tenth_ = tenth;
-  }
-
- private:
-  Console* console_;
-  std::size_t tenth_ = 0;
-};
+constexpr std::size_t kMany = 100'000;  // cases that nobody asks for by mistake
 
 void say_what_was_done(const studies::RunSummary& summary, Console& console) {
   console.say(fmt::format("{} cases: {} computed, {} taken over, {} failed, {:.1f} s",
-                          summary.cases, summary.computed, summary.reused, summary.failed.size(),
+                          summary.cases, summary.computed, summary.reused, summary.failures,
                           summary.seconds));
+  for (const std::string& lost : summary.damaged) {
+    console.say(fmt::format("{}: computed again", lost));
+  }
   for (const std::string& failed : summary.failed) console.error(failed);
 }
 
 /// Everything that a study's folder may hold.
 const std::vector<std::string>& study_files() {
   static const std::vector<std::string> names = {
-      "study.lock.toml", "inputs",     "cases",      "paper.json",
-      "results.nc",      "tables",     "report",     "ro-crate-metadata.json",
-      "estimate.json",   "model.toml", "seconds.csv"};
+      "study.lock.toml", "inputs",    "journals",
+      "paper.json",      "kind.json", "results.nc",
+      "tables",          "report",    "ro-crate-metadata.json",
+      "estimate.json",   "model.toml"};
   return names;
 }
 
@@ -69,6 +56,8 @@ studies::RunSettings settings_of(const FolderRun& run, Console& console, Progres
   studies::RunSettings settings;
   settings.folder = run.folder;
   settings.jobs = static_cast<int>(run.jobs);
+  settings.shard = run.shard;
+  settings.limits = run.limits;
   settings.build_id = build_id();
   settings.versions = versions();
   settings.stop = &stop_requested();
@@ -82,7 +71,93 @@ studies::RunSettings settings_of(const FolderRun& run, Console& console, Progres
 Result<FolderRun> folder_run(const Arguments& arguments, std::string command) {
   const Result<long> jobs = jobs_of(arguments);
   if (!jobs) return tl::unexpected(jobs.error());
-  return FolderRun{std::move(command), arguments.text("out"), *jobs, arguments.has("force")};
+  FolderRun run;
+  run.command = std::move(command);
+  run.folder = arguments.text("out");
+  run.jobs = *jobs;
+  run.force = arguments.has("force");
+  return run;
+}
+
+namespace {
+
+Result<void> refuse_many(const studies::StudyPlan& plan, const FolderRun& run) {
+  if (plan.size() <= kMany || run.yes_many) return {};
+  return failure(
+      ErrorCode::usage, fmt::format("the study has {} cases", plan.size()),
+      fmt::format("flexspline plan says how long they take; more than {} need --yes-many", kMany));
+}
+
+/// Results, tables and report of what the folder holds.
+Result<std::filesystem::path> gather(const studies::StudyPlan& plan,
+                                     const std::filesystem::path& folder) {
+  const auto rows = studies::StudyRows::open(plan, folder);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto written =
+      studies::write_results(*rows, versions(), folder)
+          .and_then([&] { return studies::write_answer(*rows, folder); })
+          .and_then([&] { return studies::write_ro_crate(plan, versions(), folder); });
+  if (!written) return tl::unexpected(written.error());
+  return reports::write_report(folder).map(
+      [](const reports::WrittenReport& report) { return report.page; });
+}
+
+/// What would be reused, were the cases of the folder all of the study.
+Result<studies::RunSummary> only_gathered(const studies::StudyPlan& plan,
+                                          const std::filesystem::path& folder) {
+  const auto rows = studies::StudyRows::open(plan, folder);
+  if (!rows) return tl::unexpected(rows.error());
+  studies::RunSummary summary;
+  summary.cases = plan.size();
+  summary.reused = rows->done();
+  summary.failures = rows->failed();
+  const std::size_t missing = plan.size() - std::min(plan.size(), rows->done());
+  if (missing > 0) summary.failed.push_back(fmt::format("{} cases are not there", missing));
+  return summary;
+}
+
+Result<studies::RunSummary> computed(const studies::StudyPlan& plan, const FolderRun& run,
+                                     Console& console) {
+  if (run.gather) return only_gathered(plan, run.folder);
+  ProgressLine line(console);
+  auto summary = studies::run_study(plan, settings_of(run, console, line));
+  if (summary && summary->interrupted) {
+    return failure(ErrorCode::interrupted,
+                   fmt::format("interrupted after {} of {} cases",
+                               summary->computed + summary->reused, summary->cases),
+                   "the same command goes on from here");
+  }
+  return summary;
+}
+
+}  // namespace
+
+Result<void> claim_for(const studies::StudyPlan& plan, const FolderRun& run) {
+  if (auto few = refuse_many(plan, run); !few) return few;
+  const auto output = OutputFolder::claim(wish_of(plan, run));
+  if (!output) return tl::unexpected(output.error());
+  // Scripts and what they say lie there before anything else does.
+  return write_file(run.folder / "slurm" / "README", "Scripts and output of the job array.\n");
+}
+
+std::string text_of(const studies::Progress& progress) {
+  std::string text =
+      fmt::format("{}/{} cases, {} failed", progress.done, progress.total, progress.failed);
+  if (progress.per_second > 0.0) {
+    const double left = static_cast<double>(progress.total - progress.done) / progress.per_second;
+    text += fmt::format(", {:.3g}/s, {:.0f} s left", progress.per_second, left);
+  }
+  if (!progress.slowest.empty() && progress.slowest_for >= 1.0) {
+    text += fmt::format("; slowest now: {}, {:.0f} s", progress.slowest, progress.slowest_for);
+  }
+  return text;
+}
+
+void ProgressLine::show(const studies::Progress& progress) {
+  if (console_->is_terminal()) return console_->live(text_of(progress));
+  if (progress.seconds < next_) return;
+  next_ = progress.seconds + 60.0;
+  console_->say(text_of(progress));
 }
 
 Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study, const FolderRun& run,
@@ -90,34 +165,26 @@ Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study, con
   const std::filesystem::path& folder = run.folder;
   const auto plan = studies::plan_study(study, build_id());
   if (!plan) return tl::unexpected(plan.error());
+  if (const auto few = refuse_many(*plan, run); !few) return tl::unexpected(few.error());
   auto output = OutputFolder::claim(wish_of(*plan, run));
   if (!output) return tl::unexpected(output.error());
   for (const auto& [input, note] : plan->notes) console.say(fmt::format("{}: {}", input, note));
-  ProgressLine line(console);
-  auto summary = studies::run_study(*plan, settings_of(run, console, line));
+  auto summary = computed(*plan, run, console);
   if (!summary) return summary;
-  if (summary->interrupted) {
-    return failure(ErrorCode::interrupted,
-                   fmt::format("interrupted after {} of {} cases",
-                               summary->computed + summary->reused, summary->cases),
-                   "the same command goes on from here");
-  }
   say_what_was_done(*summary, console);
+  if (!run.shard.whole()) return summary;
   if (run.when_computed) {
     if (const auto used = run.when_computed(*summary); !used) return tl::unexpected(used.error());
   }
-  if (const auto written = studies::write_results(*plan, summary->rows, versions(), folder);
-      !written) {
-    return tl::unexpected(written.error());
-  }
-  if (const auto written = studies::write_ro_crate(*plan, versions(), folder); !written) {
-    return tl::unexpected(written.error());
-  }
-  const auto page = reports::write_report(folder);
+  const auto page = gather(*plan, folder);
   if (!page) return tl::unexpected(page.error());
-  report = page->page;
+  report = *page;
   if (auto done = output->finish(study_files()); !done) return tl::unexpected(done.error());
   return summary;
+}
+
+Result<StoredCase> stored_case(const std::filesystem::path& folder, std::string_view key) {
+  return CaseStore::open(folder).and_then([&](const CaseStore& store) { return store.read(key); });
 }
 
 Result<long> jobs_of(const Arguments& arguments) { return arguments.integer("jobs", 0, 1, 1024); }

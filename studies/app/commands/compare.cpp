@@ -29,7 +29,9 @@ Result<ordered_json> case_of(const studies::StudyConfig& study,
                              const studies::EstimatorConfig& estimator,
                              const std::filesystem::path& folder) {
   const std::string key = fmt::format("{}--{}--r0", study.inputs.front().id, estimator.id);
-  return data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
+  return stored_case(folder, key).map([](const StoredCase& one) {
+    return ordered_json::parse(one.artefact);
+  });
 }
 
 /// rmse in percent of peak by recording and estimator, as the cases say.

@@ -173,13 +173,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   // The estimate is what was asked for; drawing a report takes longer than many fits.
   where->when_computed = [&](const studies::RunSummary& summary) -> Result<void> {
     if (!summary.failed.empty()) return {};
-    const auto artefact =
-        data::read_artefact(folder / "cases" / (key + ".json"), "flexspline-case/1");
-    if (!artefact) return tl::unexpected(artefact.error());
-    estimate = estimate_of(*artefact);
-    const auto times = studies::wall_times(folder);
-    const auto time = times.find(key);
-    estimate["seconds"] = time == times.end() ? ordered_json(nullptr) : ordered_json(time->second);
+    const auto stored = stored_case(folder, key);
+    if (!stored) return tl::unexpected(stored.error());
+    estimate = estimate_of(ordered_json::parse(stored->artefact));
+    estimate["seconds"] = stored->seconds;
     if (study->estimators.front().model) {
       const auto set = data::load_dataset(arguments.text("dataset"), study->inputs.front().rows);
       if (!set) return tl::unexpected(set.error());

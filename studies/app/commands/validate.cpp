@@ -56,17 +56,12 @@ void understand(const studies::StudyConfig& study, const studies::StudyPlan& pla
   for (const auto& input : study.inputs) inputs.push_back(input.id);
   std::vector<std::string> estimators;
   for (const auto& estimator : study.estimators) estimators.push_back(estimator.id);
-  verdict.understood = {{"name", study.name},
-                        {"seed", study.seed},
-                        {"replicates", study.replicates},
-                        {"inputs", inputs},
-                        {"estimators", estimators},
-                        {"cases", plan.cases.size()},
-                        {"estimated_seconds", plan.estimated_seconds}};
-  verdict.text =
-      fmt::format("{}: {} cases, about {:.2g} s of computing\n  inputs      {}\n  estimators  {}",
-                  study.name, plan.cases.size(), plan.estimated_seconds, fmt::join(inputs, ", "),
-                  fmt::join(estimators, ", "));
+  verdict.understood = {
+      {"name", study.name},  {"seed", study.seed},       {"replicates", study.replicates},
+      {"inputs", inputs},    {"estimators", estimators}, {"kind", study.kind},
+      {"cases", plan.size()}};
+  verdict.text = fmt::format("{}: {} cases\n  inputs      {}\n  estimators  {}", study.name,
+                             plan.size(), fmt::join(inputs, ", "), fmt::join(estimators, ", "));
 }
 
 Result<Verdict> check_study(const std::filesystem::path& file, const std::string& data_root) {

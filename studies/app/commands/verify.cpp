@@ -13,6 +13,7 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
+#include "flexspline/studies/results.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "flexspline/studies/verify.hpp"
 #include "output_folder.hpp"
@@ -68,7 +69,13 @@ Again run_study_again(const Arguments& arguments, const studies::RunSettings& se
   const auto summary = studies::run_study(*plan, settings);
   if (!summary) return tl::unexpected(summary.error());
   for (const std::string& failed : summary->failed) console.detail(failed);
-  return unless_interrupted(summary->interrupted);
+  if (summary->interrupted) return unless_interrupted(true);
+  const auto answered = studies::StudyRows::open(*plan, settings.folder)
+                            .and_then([&](const studies::StudyRows& rows) {
+                              return studies::write_answer(rows, settings.folder);
+                            });
+  if (!answered) return tl::unexpected(answered.error());
+  return std::nullopt;
 }
 
 Again run_trial_again(const Arguments& arguments, const studies::RunSettings& settings) {
