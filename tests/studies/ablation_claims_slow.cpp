@@ -9,6 +9,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/studies/run.hpp"
 #include "source_dir.hpp"
+#include "stored.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {
@@ -24,13 +25,11 @@ double median(std::vector<double> values) {
 class DampingErrors {
  public:
   DampingErrors(const std::filesystem::path& folder, const StudyPlan& plan) {
-    for (const CasePlan& one : plan.cases) {
-      const auto read =
-          data::read_artefact(folder / "cases" / (one.key + ".json"), "flexspline-case/1");
-      EXPECT_TRUE(read) << (read ? "" : read.error().message());
-      if (!read) continue;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      const CasePlan one = plan.at(i);
+      const auto artefact = stored_artefact(folder, one.key);
       errors_[one.input->id][one.estimator->id].push_back(
-          read->at("function_errors_percent").at("g_inverse"));
+          artefact.at("function_errors_percent").at("g_inverse"));
     }
   }
 

@@ -55,8 +55,9 @@ TEST_F(CommandLine, RunSaysAsJsonThatNothingWasRedone) {
 
 TEST_F(CommandLine, PlanWritesNothing) {
   folder_.write("study.toml", kStudy);
-  const Finished done = call("plan " + path("study.toml"));
+  const Finished done = call("plan --list " + path("study.toml"));
   EXPECT_EQ(done.code, 0);
+  EXPECT_THAT(done.result, HasSubstr("1 cases, 1 different fits"));
   EXPECT_THAT(done.result, HasSubstr("unity--paper--r0"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }

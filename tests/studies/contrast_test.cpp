@@ -30,7 +30,7 @@ TEST(Contrast, AndAnInputsOwnBenchAreRead) {
       << "what is not given is the study's";
   const auto plan = plan_study(*study, "build");
   ASSERT_TRUE(plan);
-  EXPECT_NE(plan->cases[0].fit_depends_on, plan->cases[1].fit_depends_on);
+  EXPECT_NE(plan->at(0).fit_depends_on, plan->at(1).fit_depends_on);
 }
 
 TEST(Contrast, RefusesAnEstimatorThatIsNotThere) {

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program_fixture.hpp"
+#include "stored.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -48,8 +49,7 @@ TEST_F(ErrorsInWords, CompareSaysTheSameOfEveryEstimator) {
   ASSERT_EQ(ended.code, 0) << ended.said;
   EXPECT_THAT(ended.result, HasSubstr("Nm, "));
   for (const char* id : {"midpoint_polynomial", "trajectory_ceres"}) {
-    const auto artefact =
-        nlohmann::json::parse(read_text(path("both/cases/set--" + std::string(id) + "--r0.json")));
+    const auto artefact = stored_artefact(path("both"), "set--" + std::string(id) + "--r0");
     for (const auto& note : artefact.at("estimate").at("notes")) {
       EXPECT_THAT(ended.result, HasSubstr("note: " + note.get<std::string>()));
     }

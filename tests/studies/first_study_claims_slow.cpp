@@ -9,6 +9,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/studies/run.hpp"
 #include "source_dir.hpp"
+#include "stored.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {
@@ -41,11 +42,7 @@ class FirstStudy : public testing::Test {
   static void TearDownTestSuite() { folder_.reset(); }
 
   static ordered_json of(const std::string& input, const std::string& estimator) {
-    const std::string key = input + "--" + estimator + "--r0";
-    const auto read =
-        data::read_artefact(folder_->path() / "cases" / (key + ".json"), "flexspline-case/1");
-    EXPECT_TRUE(read) << (read ? "" : read.error().message());
-    return read.value_or(ordered_json{});
+    return stored_artefact(folder_->path(), input + "--" + estimator + "--r0");
   }
   static double damping_error(const ordered_json& one) {
     return one.at("function_errors_percent").at("g_inverse");

@@ -25,11 +25,12 @@ TEST(Plan, IsInputsTimesTheirEstimatorsTimesReplicates) {
           "inputs = [\"h_even\"]\n");
   const auto plan = plan_study(study, "build");
   ASSERT_TRUE(plan.has_value());
-  EXPECT_EQ(plan->inputs.size(), 6U);
-  EXPECT_EQ(plan->cases.size(), 9U);
+  EXPECT_EQ(plan->inputs.size(), 2U);
+  EXPECT_EQ(plan->size(), 9U);
   std::set<std::string> keys;
   std::set<std::string> hashes;
-  for (const CasePlan& one : plan->cases) {
+  for (std::size_t i = 0; i < plan->size(); ++i) {
+    const CasePlan one = plan->at(i);
     keys.insert(one.key);
     hashes.insert(one.depends_on);
     EXPECT_EQ(one.seed, 10U + static_cast<unsigned>(one.replicate));
@@ -46,8 +47,8 @@ TEST(Plan, HoldOutIsRecordedApartFromTraining) {
   const auto study = load(folder, kHead + kGrid + kInput + kEstimator);
   const auto plan = plan_study(study, "build");
   ASSERT_TRUE(plan.has_value());
-  EXPECT_EQ(plan->cases[0].train, std::vector<std::string>{"a0.2000-f0.00500"});
-  EXPECT_EQ(plan->cases[0].holdout, std::vector<std::string>{"holdout/a0.2000-f0.00500"});
+  EXPECT_EQ(plan->at(0).train, std::vector<std::string>{"a0.2000-f0.00500"});
+  EXPECT_EQ(plan->at(0).holdout, std::vector<std::string>{"holdout/a0.2000-f0.00500"});
 }
 
 TEST(Plan, HashFollowsWhatTheResultDependsOnAndNothingElse) {
@@ -55,7 +56,7 @@ TEST(Plan, HashFollowsWhatTheResultDependsOnAndNothingElse) {
   const auto hash = [&](const std::string& text, const std::string& build = "build") {
     const auto study = load(folder, text);
     const auto plan = plan_study(study, build);
-    return plan ? plan->cases[0].depends_on : std::string();
+    return plan ? plan->at(0).depends_on : std::string();
   };
   const std::string text = kHead + kGrid + kInput + kEstimator;
   const std::string base = hash(text);

@@ -58,13 +58,13 @@ Pooled cell(const std::string& input, const std::string& estimator) {
   EXPECT_TRUE(plan) << plan.error().message();
   if (!plan) return {};
   const auto prepared = prepare_input(*plan, plan->inputs.front());
-  const CasePlan& one = plan->cases.front();
+  const CasePlan one = plan->at(0);
   const auto outcome = compare_case(one, prepared, estimate_case(one, prepared));
   EXPECT_TRUE(outcome.estimate) << outcome.estimate.error().message();
   if (!outcome.estimate) return {};
   const Pooled result = pooled(outcome, *prepared);
   std::printf("%s, %s: train %.4g", input.c_str(), estimator.c_str(), result.train);
-  if (!plan->cases.front().holdout.empty()) std::printf(", held out %.4g", result.holdout);
+  if (!plan->at(0).holdout.empty()) std::printf(", held out %.4g", result.holdout);
   std::printf("\n");
   return result;
 }

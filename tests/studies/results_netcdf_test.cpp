@@ -27,8 +27,10 @@ class ResultsFile : public testing::Test {
     settings.folder = folder_.path() / "out";
     const auto summary = run_study(*plan, settings);
     ASSERT_TRUE(summary);
-    for (const auto& row : summary->rows) rows_.push_back(*row);
-    ASSERT_TRUE(write_results(*plan, summary->rows, {{"flexspline", "1.2.3"}}, settings.folder));
+    const auto rows = StudyRows::open(*plan, settings.folder);
+    ASSERT_TRUE(rows);
+    rows->each([&](const CasePlan&, const CaseRow& row) { rows_.push_back(row); });
+    ASSERT_TRUE(write_results(*rows, {{"flexspline", "1.2.3"}}, settings.folder));
     ASSERT_EQ(nc_open((settings.folder / "results.nc").c_str(), NC_NOWRITE, &file_), NC_NOERR);
   }
   void TearDown() override { nc_close(file_); }

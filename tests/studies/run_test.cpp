@@ -7,6 +7,7 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/studies/results.hpp"
 #include "flexspline/studies/run.hpp"
+#include "stored.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {
@@ -40,10 +41,12 @@ class RunStudy : public testing::Test {
     settings.stop = stop;
     return run_study(*plan, settings);
   }
-  ordered_json artefact(const std::string& key) const {
-    const auto read = data::read_artefact(out() / "cases" / (key + ".json"), "flexspline-case/1");
-    EXPECT_TRUE(read.has_value()) << (read ? "" : read.error().message());
-    return read.value_or(ordered_json{});
+  ordered_json artefact(const std::string& key) const { return stored_artefact(out(), key); }
+
+  std::string journals() const {
+    std::string text;
+    for (const auto& file : journals_in(out() / "journals")) text += read_text(file);
+    return text;
   }
 
   ScratchFolder folder_;
@@ -72,34 +75,40 @@ TEST_F(RunStudy, WritesEveryArtefact) {
 TEST_F(RunStudy, SecondRunRedoesNothing) {
   const StudyConfig study = load(text_);
   ASSERT_TRUE(run(study).has_value());
-  const auto before = last_write_time(out() / "cases" / "unity--paper--r0.json");
+  const std::string before = journals();
   const auto again = run(study);
   ASSERT_TRUE(again.has_value());
   EXPECT_EQ(again->computed, 0U);
   EXPECT_EQ(again->reused, 2U);
-  EXPECT_EQ(last_write_time(out() / "cases" / "unity--paper--r0.json"), before);
+  EXPECT_EQ(journals(), before);
 }
 
 TEST_F(RunStudy, TamperedArtefactIsRedone) {
   const StudyConfig study = load(text_);
   ASSERT_TRUE(run(study).has_value());
-  const auto file = out() / "cases" / "unity--paper--r0.json";
-  std::string text = read_text(file);
-  const auto at = text.find("\"seed\"");
-  ASSERT_NE(at, std::string::npos);
-  text.replace(text.find_first_of("0123456789", at), 1, "9");
-  std::ofstream(file) << text;
+  for (const auto& file : journals_in(out() / "journals")) {
+    std::string text = read_text(file);
+    const auto at = text.find("\"key\":\"unity--paper--r0\"");
+    if (at == std::string::npos) continue;
+    text.replace(text.find_first_of("0123456789", text.find("\"seed\"", at)), 1, "9");
+    std::ofstream(file) << text;
+  }
   const auto again = run(study);
   ASSERT_TRUE(again.has_value());
   EXPECT_EQ(again->computed, 1U);
+  ASSERT_EQ(again->damaged.size(), 1U);
+  EXPECT_NE(again->damaged[0].find("1 damaged record"), std::string::npos);
   EXPECT_EQ(artefact("unity--paper--r0")["seed"], 1);
 }
 
 TEST_F(RunStudy, TruncatedArtefactIsRedone) {
   const StudyConfig study = load(text_);
   ASSERT_TRUE(run(study).has_value());
-  std::filesystem::resize_file(out() / "cases" / "unity--pooled--r0.json", 100);
-  EXPECT_EQ(run(study)->computed, 1U);
+  const auto file = journals_in(out() / "journals").back();
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 100);
+  const auto again = run(study);
+  EXPECT_EQ(again->computed, 1U);
+  EXPECT_TRUE(again->damaged.empty()) << "a torn tail is no damage";
 }
 
 TEST_F(RunStudy, OtherSeedOrBuildIsAnotherResult) {
@@ -112,8 +121,12 @@ TEST_F(RunStudy, OtherSeedOrBuildIsAnotherResult) {
 TEST_F(RunStudy, CasesNoLongerInTheStudyAreSetAside) {
   ASSERT_TRUE(run(load(text_)).has_value());
   ASSERT_TRUE(run(load(kHead + kBench + kGrid + kInput + kEstimator)).has_value());
-  EXPECT_FALSE(exists(out() / "cases" / "unity--pooled--r0.json"));
-  EXPECT_TRUE(exists(out() / "cases" / "unity--pooled--r0.json.stale"));
+  EXPECT_EQ(CaseStore::open(out())->keys(), std::vector<std::string>{"unity--paper--r0"});
+  std::string stale;
+  for (const auto& entry : std::filesystem::directory_iterator(out() / "journals")) {
+    if (entry.path().extension() == ".stale") stale += read_text(entry.path());
+  }
+  EXPECT_NE(stale.find("\tunity--pooled--r0\t"), std::string::npos) << "nothing is lost";
 }
 
 TEST_F(RunStudy, ReplicatesDifferByTheirNoise) {
@@ -130,7 +143,7 @@ TEST_F(RunStudy, NumberOfWorkersDoesNotMatter) {
   const auto result = [&](int jobs) {
     std::filesystem::remove_all(out());
     EXPECT_TRUE(run(study, "build", nullptr, jobs).has_value());
-    return read_text(out() / "cases" / "unity--paper--r0.json");
+    return stored_case(out(), "unity--paper--r0").artefact;
   };
   EXPECT_EQ(result(1), result(4));
 }
@@ -203,8 +216,7 @@ TEST_F(RunStudy, FitsTheSameDataByTheSameMethodOnce) {
   const auto summary = run(study);
   ASSERT_TRUE(summary.has_value()) << summary.error().message();
   ASSERT_EQ(summary->computed, 6U);
-  const auto times = wall_times(out());
-  const auto seconds = [&](const std::string& key) { return times.at(key); };
+  const auto seconds = [&](const std::string& key) { return stored_case(out(), key).seconds; };
   EXPECT_EQ(seconds("loop--a--r0"), seconds("loop--a--r1"));
   EXPECT_EQ(seconds("loop--a--r0"), seconds("loop--b--r1"));
   EXPECT_NE(seconds("loop--a--r0"), seconds("loop--c--r0"));
@@ -234,10 +246,12 @@ TEST_F(RunStudy, ResultsAreHdf5AndLeaveNothingHalfWritten) {
   const auto summary = run(study);
   ASSERT_TRUE(summary.has_value());
   const auto plan = plan_study(study, "build");
-  ASSERT_TRUE(write_results(*plan, summary->rows, {}, out()).has_value());
+  const auto rows = StudyRows::open(*plan, out());
+  ASSERT_TRUE(rows);
+  ASSERT_TRUE(write_results(*rows, {}, out()).has_value());
   EXPECT_EQ(read_text(out() / "results.nc").substr(1, 3), "HDF");
   EXPECT_FALSE(exists(out() / ".results.nc.part"));
-  const auto nowhere = write_results(*plan, summary->rows, {}, out() / "none");
+  const auto nowhere = write_results(*rows, {}, out() / "none");
   ASSERT_FALSE(nowhere.has_value());
   EXPECT_EQ(nowhere.error().code, ErrorCode::cannot_write);
 }

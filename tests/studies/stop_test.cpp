@@ -1,4 +1,5 @@
 #include "program_fixture.hpp"
+#include "stored.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -67,14 +68,16 @@ TEST_F(AskedToStop, AStudyGoesOnFromWhatIsFinished) {
   const Ended ended = run_program(call);
   ASSERT_EQ(ended.code, 75) << ended.said;
   EXPECT_LT(ended.stopping, 2.0);
-  const auto left = hashes(path("out"));
-  EXPECT_FALSE(left.empty());
+  const auto left = CaseStore::open(path("out"));
+  ASSERT_TRUE(left) << left.error().message();
+  EXPECT_GT(left->size(), 0U);
+  EXPECT_TRUE(left->damaged().empty());
+  std::map<std::string, std::string> before;
+  for (const std::string& key : left->keys()) before[key] = left->read(key)->artefact;
   call.limit = 1.0;
   EXPECT_EQ(run_program(call).code, 75);
-  for (const auto& [file, sum] : hashes(path("out"))) {
-    const auto before = left.find(file);
-    if (file.find("/cases/") == std::string::npos || before == left.end()) continue;
-    EXPECT_EQ(sum, before->second) << file;
+  for (const auto& [key, artefact] : before) {
+    EXPECT_EQ(stored_case(path("out"), key).artefact, artefact) << key;
   }
 }
 

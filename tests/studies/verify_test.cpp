@@ -9,6 +9,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/studies/run.hpp"
 #include "flexspline/studies/verify.hpp"
+#include "stored.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -147,11 +148,9 @@ TEST_F(VerifyFolders, NamesSeedAndCodeThatChanged) {
 TEST_F(VerifyFolders, BlamesNobodyForANumberThatWasChangedByHand) {
   const fs::path folder = run("first", study(), "b1");
   const fs::path again = run("again", study(), "b1");
-  const fs::path file = folder / "cases" / "unity--paper--r0.json";
-  auto artefact = data::read_artefact(file, "flexspline-case/1");
-  ASSERT_TRUE(artefact);
-  (*artefact)["recordings"][1]["rmse"] = 1e-9;
-  ASSERT_TRUE(data::write_artefact(file, *artefact));
+  auto artefact = stored_artefact(folder, "unity--paper--r0");
+  artefact["recordings"][1]["rmse"] = 1e-9;
+  replace_case(folder, "unity--paper--r0", artefact);
   const auto verification = verify_folders(folder, again);
   ASSERT_TRUE(verification);
   EXPECT_EQ(verification->level, Agreement::differs);
@@ -164,7 +163,7 @@ TEST_F(VerifyFolders, TellsADamagedArtefactFromAMissingOne) {
   const fs::path folder = run("first", study(), "b1");
   const fs::path again = run("again", study(), "b1");
   ASSERT_TRUE(write_file(folder / "inputs" / "unity.json", "{\"schema\": \"flexspline-input/1\"}"));
-  fs::remove(folder / "cases" / "unity--paper--r0.json");
+  remove_case(folder, "unity--paper--r0");
   const auto verification = verify_folders(folder, again);
   ASSERT_TRUE(verification);
   ASSERT_EQ(verification->artefacts.size(), 2U);

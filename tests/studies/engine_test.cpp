@@ -1,0 +1,219 @@
+#include "flexspline/studies/engine.hpp"
+
+#include <map>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "flexspline/core/case_store.hpp"
+#include "flexspline/core/write_file.hpp"
+#include "study_file.hpp"
+#include "toy_cases.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Engine : public testing::Test {
+ protected:
+  EngineSettings settings(int jobs = 2, Shard shard = {}) const {
+    EngineSettings settings;
+    settings.folder = folder_.path();
+    settings.jobs = jobs;
+    settings.shard = shard;
+    return settings;
+  }
+  /// Every artefact by its key.
+  std::map<std::string, std::string> artefacts() const {
+    std::map<std::string, std::string> found;
+    const auto store = CaseStore::open(folder_.path());
+    EXPECT_TRUE(store) << store.error().message();
+    for (const std::string& key : store->keys()) found[key] = store->read(key)->artefact;
+    return found;
+  }
+  /// What an undisturbed run gives.
+  static std::map<std::string, std::string> expected(std::size_t size) {
+    std::map<std::string, std::string> all;
+    ToyCases cases(size);
+    for (std::size_t i = 0; i < size; ++i) all[cases.name(i).key] = cases.compute(i).artefact;
+    return all;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Engine, ComputesEveryCaseOnceByAnyNumberOfWorkers) {
+  for (const int jobs : {1, 2, 8}) {
+    const ScratchFolder own;
+    ToyCases cases(300);
+    EngineSettings with = settings(jobs);
+    with.folder = own.path();
+    const auto summary = run_cases(cases, with);
+    ASSERT_TRUE(summary) << summary.error().message();
+    EXPECT_EQ(summary->computed, 300U);
+    EXPECT_EQ(summary->failed, 42U);
+    EXPECT_EQ(summary->failures.front(), "toy--0000006--r0: a 7th");
+    EXPECT_FALSE(summary->interrupted);
+    EXPECT_LE(journals_in(own.path() / "journals").size(), static_cast<std::size_t>(jobs));
+    const auto again = run_cases(cases, with);
+    EXPECT_EQ(again->computed, 0U);
+    EXPECT_EQ(again->reused, 300U);
+    EXPECT_EQ(again->failed, 42U);
+  }
+}
+
+TEST_F(Engine, ShardsAreDisjointAndTheWhole) {
+  for (const std::size_t total : {1U, 7U, 100U, 10'000U}) {
+    for (const std::size_t count : {1U, 2U, 3U, 8U}) {
+      std::vector<std::size_t> sizes(count);
+      for (std::size_t number = 0; number < total; ++number) {
+        std::size_t owners = 0;
+        for (std::size_t index = 1; index <= count; ++index) {
+          if (!Shard{index, count}.has(number, total)) continue;
+          ++owners;
+          ++sizes[index - 1];
+        }
+        EXPECT_EQ(owners, 1U) << number << " of " << total;
+      }
+      if (total < 100) continue;
+      for (const std::size_t size : sizes) {
+        EXPECT_GT(static_cast<double>(size), 0.8 * static_cast<double>(total / count));
+      }
+    }
+  }
+}
+
+// Two processes on one folder at once, then whoever is there last: nothing is missing or twice.
+TEST_F(Engine, TwoShardsAtOnceInOneFolder) {
+  std::vector<pid_t> children;
+  for (std::size_t index = 1; index <= 2; ++index) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ToyCases cases(400, 200us);
+      const auto done = run_cases(cases, settings(2, {index, 2}));
+      ::_exit(done && done->computed == done->cases ? 0 : 1);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  ToyCases cases(400);
+  const auto rest = run_cases(cases, settings());
+  ASSERT_TRUE(rest) << rest.error().message();
+  EXPECT_EQ(rest->computed, 0U);
+  EXPECT_EQ(artefacts(), expected(400));
+}
+
+TEST_F(Engine, GoesOnAfterBeingKilled) {
+  for (int k = 0; k < 5; ++k) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ToyCases cases(200, 2ms);
+      static_cast<void>(run_cases(cases, settings()));
+      ::_exit(0);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(7 + 11 * k));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+  }
+  ToyCases cases(200);
+  const auto rest = run_cases(cases, settings());
+  ASSERT_TRUE(rest) << rest.error().message();
+  EXPECT_GT(rest->reused, 0U);
+  EXPECT_EQ(artefacts(), expected(200));
+}
+
+TEST_F(Engine, WhatThePlanHasNoMoreIsSetAside) {
+  ToyCases more(50);
+  ASSERT_TRUE(run_cases(more, settings()));
+  ToyCases fewer(30);
+  const auto summary = run_cases(fewer, settings());
+  ASSERT_TRUE(summary) << summary.error().message();
+  EXPECT_EQ(summary->reused, 30U);
+  EXPECT_EQ(artefacts(), expected(30));
+}
+
+TEST_F(Engine, AStopEndsAfterTheCasesAtHand) {
+  std::atomic<bool> stop = false;
+  EngineSettings with = settings(2);
+  with.stop = &stop;
+  std::jthread asks([&] {
+    std::this_thread::sleep_for(30ms);
+    stop = true;
+  });
+  ToyCases cases(10'000, 1ms);
+  const auto summary = run_cases(cases, with);
+  ASSERT_TRUE(summary) << summary.error().message();
+  EXPECT_TRUE(summary->interrupted);
+  EXPECT_GT(summary->computed, 0U);
+  EXPECT_LT(summary->computed, 5000U);
+}
+
+TEST_F(Engine, AFolderThatIsTakenAwayIsNamed) {
+  EngineSettings with = settings(2);
+  with.folder = folder_.path() / "out";
+  std::jthread takes([&] {
+    std::this_thread::sleep_for(50ms);
+    std::filesystem::rename(with.folder, folder_.path() / "elsewhere");
+    std::filesystem::remove_all(folder_.path() / "elsewhere");
+  });
+  ToyCases cases(100'000, 100us);
+  const auto summary = run_cases(cases, with);
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::cannot_write);
+  EXPECT_NE(summary.error().problem.find("out"), std::string::npos);
+}
+
+TEST_F(Engine, AReadOnlyFolderIsNamed) {
+  std::filesystem::create_directories(folder_.path() / "out");
+  ASSERT_TRUE(write_file(folder_.path() / "out" / "journals", "a file in the way"));
+  EngineSettings with = settings(2);
+  with.folder = folder_.path() / "out";
+  ToyCases cases(10);
+  const auto summary = run_cases(cases, with);
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::cannot_write);
+}
+
+/// Cases that do what no case should.
+class WildCases : public ToyCases {
+ public:
+  WildCases() : ToyCases(8, {}, false) {}
+  CaseResult compute(std::size_t number) override {
+    if (number == 1) std::this_thread::sleep_for(60s);
+    if (number == 3) {
+      std::vector<std::string> much;
+      while (true) much.emplace_back(10'000'000, 'x');
+    }
+    if (number == 5) ::raise(SIGSEGV);
+    if (number == 6) throw std::runtime_error("thrown");
+    return ToyCases::compute(number);
+  }
+};
+
+TEST_F(Engine, ACaseBeyondItsLimitsFailsAndTheOthersDoNot) {
+  WildCases cases;
+  EngineSettings with = settings(2);
+  with.limits = {1.0, 500.0};
+  const auto summary = run_cases(cases, with);
+  ASSERT_TRUE(summary) << summary.error().message();
+  EXPECT_EQ(summary->computed, 8U);
+  ASSERT_EQ(summary->failures.size(), 4U);
+  EXPECT_NE(summary->failures[0].find("longer than 1 s"), std::string::npos);
+  EXPECT_NE(summary->failures[1].find("more than 500 MB"), std::string::npos);
+  EXPECT_NE(summary->failures[2].find("signal 11"), std::string::npos);
+  EXPECT_NE(summary->failures[3].find("thrown"), std::string::npos);
+  const auto found = artefacts();
+  EXPECT_EQ(found.size(), 8U);
+  EXPECT_EQ(found.at("toy--0000007--r0"), ToyCases::artefact(7));
+}
+
+}  // namespace
+}  // namespace flexspline::studies
