@@ -89,14 +89,18 @@ std::string_view site_in_words(Site site) {
   return "unknown";
 }
 
-std::string effect_page(const EffectRow& row) {
+std::string effect_text(const EffectRow& row, std::string_view equation) {
   return fmt::format(
-      "{}\n# {}\n\n$$\n{}\n$$\n\n![the loop without and with it, and the "
-      "difference](figures/{}.svg)\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of "
-      "226 Nm and "
-      "ratio 50.\n\n{}\n## Range\n\nHolds for: {}.\n\nNot modelled: {}.\n\n## Source\n\n{}\n",
-      kOrigin, row.id, reports::tex_of(row.equation), picture_name(row), facts(row),
-      parameter_table(row), row.range, row.not_modelled, row.source);
+      "# {}\n\n{}\n\n{}\n## Parameters\n\nSI. Nominal values are for a unit of 226 Nm and ratio "
+      "50.\n\n{}\n## Range\n\nHolds for: {}.\n\nNot modelled: {}.\n\n## Source\n\n{}\n",
+      row.id, equation, facts(row), parameter_table(row), row.range, row.not_modelled, row.source);
+}
+
+std::string effect_page(const EffectRow& row) {
+  const std::string shown = fmt::format(
+      "$$\n{}\n$$\n\n![the loop without and with it, and the difference](figures/{}.svg)",
+      reports::tex_of(row.equation), picture_name(row));
+  return fmt::format("{}\n{}", kOrigin, effect_text(row, shown));
 }
 
 std::string effect_index() {

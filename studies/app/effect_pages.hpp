@@ -12,7 +12,10 @@ namespace flexspline::app {
 /// Ghorbel (2003).
 std::string_view site_in_words(Site site);
 
-/// An effect's page in Markdown, all of it from the row.
+/// What is known of an effect in Markdown, all of it from the row, with its equation in this form.
+std::string effect_text(const EffectRow& row, std::string_view equation);
+
+/// Its page: the equation set as mathematics, and its picture.
 std::string effect_page(const EffectRow& row);
 
 /// The table of all effects, with links to their pages.

@@ -203,7 +203,12 @@ Result<Verification> verify_folders(const fs::path& folder, const fs::path& agai
     return failure(ErrorCode::input_missing, folder.string() + " holds no artefact to verify",
                    "give the folder that run, fit, compare, diagnose or trial wrote");
   }
-  names.merge(artefacts_in(after));
+  std::set<std::string> others = artefacts_in(after);
+  if (others.empty()) {
+    return failure(ErrorCode::input_missing, against.string() + " holds no artefact to compare with",
+                   "give the folder of the other run");
+  }
+  names.merge(others);
   verification.changed = changed_circumstances(folder, against);
   for (const std::string& name : names) {
     verification.artefacts.push_back(check_one(name, before, after, !verification.changed.empty()));

@@ -27,7 +27,7 @@ TEST(Diagnose, SaysWithoutANameWhatIsTooSmallForOne) {
   EXPECT_TRUE(d.causes.empty());
   ASSERT_FALSE(d.mismatch.empty());
   EXPECT_EQ(d.mismatch.front().coordinate, "reversal_memory");
-  EXPECT_NE(d.says.find("too little for a name"), std::string::npos) << d.says;
+  EXPECT_NE(d.says.find("too little to be named"), std::string::npos) << d.says;
   EXPECT_EQ(d.says.find("presliding"), std::string::npos) << d.says;
 }
 

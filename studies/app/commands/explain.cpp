@@ -19,11 +19,10 @@ Result<const EffectRow*> effect_named(const std::string& name) {
                  suggestion(name, names));
 }
 
-/// The page without the comment that says where it comes from.
+/// A terminal shows the equation as the catalogue writes it.
 std::string page_for_terminal(const EffectRow& row) {
-  const std::string page = effect_page(row);
-  const std::size_t begin = page.find("# ");
-  return page.substr(begin, page.find_last_not_of('\n') + 1 - begin);
+  const std::string text = effect_text(row, fmt::format("    {}", row.equation));
+  return text.substr(0, text.find_last_not_of('\n') + 1);
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
