@@ -63,7 +63,8 @@ TEST_F(Rivals, OfACauseThatFailsTakesItsPlaceWhereItHolds) {
   EXPECT_THAT(ids(s.accepted), testing::ElementsAre(kHidden));
   EXPECT_LT(proof->holdout.ratio, 0.8);
   ASSERT_THAT(ids(s.withdrawn), testing::SizeIs(1));
-  EXPECT_THAT(std::string(s.withdrawn.front().withdrawn_because), testing::HasSubstr("a rival"));
+  EXPECT_THAT(std::string(s.withdrawn.front().withdrawn_because),
+              testing::HasSubstr("an alternative"));
 }
 
 TEST_F(Rivals, OfACauseThatHoldsStayBehindIt) {
