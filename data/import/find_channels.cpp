@@ -17,7 +17,7 @@ namespace {
 using enum ColumnKind;
 
 /// Rates of benches, Hz: a unit of time that gives another is none.
-constexpr double kSlowestRate = 2.0;
+constexpr double kSlowestRate = 0.01;  // creep is recorded once in a minute
 constexpr double kFastestRate = 50000.0;
 
 /// What a role is called on a rig; where it has none there, nothing.

@@ -37,9 +37,10 @@ void add_argument(CLI::App& sub, Slot& slot) {
   }
   slot.option = sub.add_option(std::string(info.name), slot.values, std::string(info.meaning));
   slot.option->type_name(std::string(info.value))->required(info.required);
+  const bool is_list = info.repeats && !info.name.starts_with('-');
   slot.option->expected(1)->multi_option_policy(info.repeats ? CLI::MultiOptionPolicy::TakeAll
                                                              : CLI::MultiOptionPolicy::Throw);
-  slot.option->allow_extra_args(false);  // what follows is the next position's
+  slot.option->allow_extra_args(is_list);  // else what follows is the next position's
 }
 
 /// A command with the parser that reads its arguments.

@@ -112,21 +112,26 @@ TEST_F(Import, TakesWhatIsStated) {
 }
 
 TEST_F(Import, FindsTheUnitOfTimeOnlyWhereOneFits) {
-  put("a.csv", bench_text("t;theta_m [deg];tau [Nm]"));  // 10 a step: 100 Hz in ms, 0.1 Hz in s
-  ImportWish from = wish({"a.csv"});
-  from.constants["gear_ratio"] = 50;
-  const auto plan = plan_import(from);
-  ASSERT_TRUE(plan);
-  EXPECT_EQ(all_open(*plan), "") << all_inferred(*plan);
+  const auto stepping = [&](const std::string& name, double step) {
+    std::string text = "t;theta_m [deg];tau [Nm]\n";
+    for (int i = 0; i < 99; ++i) text += fmt::format("{:.6g};{};{}\n", step * i, i % 7, i % 5);
+    put(name, text);
+    ImportWish from = wish({name});
+    from.constants["gear_ratio"] = 50;
+    return plan_import(from);
+  };
+  const auto found = stepping("a.csv", 0.002);  // 500 Hz in s, 500 kHz in ms
+  ASSERT_TRUE(found);
+  EXPECT_EQ(all_open(*found), "") << all_inferred(*found);
   EXPECT_THAT(
-      all_inferred(*plan),
-      HasSubstr("column 1 't' is the time in ms (likely: by its name; of s, ms and us only ms"));
-  std::string text = "t;theta_m [deg];tau [Nm]\n";
-  for (int i = 0; i < 99; ++i) text += fmt::format("{:.1f};{};{}\n", 0.1 * i, i % 7, i % 5);
-  put("b.csv", text);  // 10 Hz in s, 10 kHz in ms
-  const auto open = plan_import(wish({"b.csv"}));
-  ASSERT_TRUE(open);
-  EXPECT_THAT(all_open(*open), HasSubstr("the time, has no unit; state it: --map t=col1:s"));
+      all_inferred(*found),
+      HasSubstr("column 1 't' is the time in s (likely: by its name; of s, ms and us only s"));
+  for (const double step : {0.1, 1.0, 10.0}) {  // 10 Hz or 10 kHz; 1 Hz or 1 kHz; 0.1 or 100 Hz
+    const auto open = stepping("b.csv", step);
+    ASSERT_TRUE(open);
+    EXPECT_THAT(all_open(*open), HasSubstr("the time, has no unit; state it: --map t=col1:s"))
+        << step;
+  }
 }
 
 /// Both angles move: the ratio is their slope, and the side is what turns more.

@@ -176,6 +176,8 @@ class SpoiltInputs {
     folder_.write("world/trial.toml",
                   "schema = \"flexspline-trial/1\"\nname = \"t\"\nseed = 1\n"
                   "rigs = [\"specimen\"]\ncases = 1\n[draw]\none = 1\n");
+    folder_.write("world/bench.csv", read_text(std::string(FLEXSPLINE_SOURCE_DIR) +
+                                               "/tests/data/corpus/files/unit_row.csv"));
     ASSERT_EQ(run_program({"simulate", in_world("model.toml"), "--excitation", "sine",
                            "--amplitude", "0.2deg", "--frequency", "0.005Hz", "--samples", "200",
                            "--out", in_world("set")})
@@ -230,7 +232,8 @@ class SpoiltInputs {
         {"schema", {{"name", "study"}}},
         {"list", {{"catalogue", "effects"}}},
         {"explain", {{"effect", "backlash"}}},
-        {"export", {{"--to", "c99"}}}};
+        {"export", {{"--to", "c99"}}},
+        {"import", {{"files", in_world("bench.csv")}, {"--ratio", "100"}}}};
     if (const auto found = known.find(command.id); found != known.end()) {
       for (const auto& [name, value] : found->second) values[name] = value;
     }
