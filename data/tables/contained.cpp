@@ -215,7 +215,7 @@ class NearSide {
       } else {
         crashed = true;
       }
-      if (crashed) return "ended in the middle";
+      if (crashed) return "ended before it was done";
       if (head.word == TableWord::done) return {};
       if (head.word == TableWord::failed) return bytes;
       if (!take(head.word, bytes)) return "said what it may not";

@@ -91,7 +91,7 @@ KindAnswer answer(const StudyRows& rows) {
       "ranks",
       "Where the truth lies in the bands",
       "Rank of the truth in each fit's own distribution, one probe a fit. Level "
-      "within the band: calibrated; heaped at both ends: too narrow; in the middle: "
+      "within the band: calibrated; heaped at both ends: too narrow; at the centre: "
       "too wide.",
       "",
       {}};

@@ -157,7 +157,7 @@ KindRow describe_excitation() {
   return {.id = "excitation",
           .summary = "what one recording more would tell of f, g^-1 and h, within a rig's limits",
           .cases = "inputs x estimators x (what is recorded, and with each candidate) x replicates",
-          .question = "Which recording is worth taking next?",
+          .question = "Which recording should be taken next?",
           .read = read,
           .answer = answer,
           .chooses_training = true};
