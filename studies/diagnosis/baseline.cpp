@@ -24,6 +24,7 @@ constexpr Index kDryWidths = 7;
 constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
 constexpr double kWidest = 0.1;
 constexpr double kFree = -std::numeric_limits<double>::infinity();
+constexpr std::array kRoundings = {1.0 / 3.0, 1.0, 3.0, 9.0, 27.0};  // of a sign, over its rate
 
 std::vector<double> even_knots(int count) {
   std::vector<double> knots;
@@ -101,7 +102,9 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
   const double high = frame.torsion.maxCoeff();
   const CubicBasis position(low, high, kTravelIntervals);
   const Index f = static_cast<Index>(position.size());
-  BaselineColumns c{MatrixXd::Zero(frame.rows(), f + 2), Eigen::VectorXd::Zero(f + 2), f, 2};
+  const auto widths = travelling_widths(shape);
+  const Index g = static_cast<Index>(widths.size()) + 1;
+  BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g};
   c.lower.head(f).setConstant(kFree);
   for (Index r = 0; r < frame.rows(); ++r) {
     const auto local = position.at(frame.torsion[r]);
@@ -109,9 +112,10 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  const double width = coulomb_width(frame, shape);
-  c.columns.col(f) = (frame.torsion_rate / width).tanh();
-  c.columns.col(f + 1) = frame.torsion_rate / frame.rate_range;
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    c.columns.col(f + static_cast<Index>(k)) = (frame.torsion_rate / widths[k]).tanh();
+  }
+  c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   if (frame.torque_lag > 0.0) {
     for (auto column : c.columns.colwise()) column = frame.recorded(column.array());
   }
@@ -144,6 +148,12 @@ std::vector<double> dry_widths(const Frame& frame) {
     widths.push_back(frame.speed_range * kNarrowest *
                      std::pow(kWidest / kNarrowest, static_cast<double>(k) / (kDryWidths - 1.0)));
   }
+  return widths;
+}
+
+std::vector<double> travelling_widths(std::span<const double> shape) {
+  std::vector<double> widths;
+  for (const double one : kRoundings) widths.push_back(one * std::exp(shape[0]));
   return widths;
 }
 

@@ -28,6 +28,9 @@ BaselineColumns baseline_columns(const Frame& frame, Equation equation,
 /// rad/s.
 std::vector<double> dry_widths(const Frame& frame);
 
+/// The same of an angle that travels, rad/s (m/s), about the rate of its shape.
+std::vector<double> travelling_widths(std::span<const double> shape);
+
 /// Rate below which dry friction across the gear is rounded off.
 double coulomb_width(const Frame& frame, std::span<const double> shape);
 

@@ -39,7 +39,8 @@ bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& li
 
 Verdict verdict_of(const Frame& frame, const Selection& s, const Diagnosis& d,
                    const Limits& limits) {
-  const bool left = s.remainder || is_beyond_noise(frame, d.holdout, limits) ||
+  const bool left = s.remainder || !frame.incidents.empty() ||
+                    is_beyond_noise(frame, d.holdout, limits) ||
                     (d.cross_validated && is_beyond_noise(frame, *d.cross_validated, limits));
   if (s.accepted.empty()) {
     const bool something = left || left_unnamed(s, limits) != nullptr;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/experiment.hpp"
+#include "diagnosis/incident.hpp"
 #include "diagnosis/zeros.hpp"
 
 namespace flexspline::studies {
@@ -30,8 +31,20 @@ Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& pr
   return select_causes(frame, limits, progress);
 }
 
-Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress) {
+// Again without a stretch of one recording that has something of its own, until none has.
+Result<Selection> beside_incidents(Frame& frame, const Limits& limits, const Progress& progress) {
   auto selection = aligned(frame, limits, progress);
+  while (selection && frame.incidents.size() < limits.incidents) {
+    const auto incident = find_incident(frame, selection->final, limits);
+    if (!incident) break;
+    frame = without_incident(std::move(frame), *incident);
+    selection = aligned(frame, limits, progress);
+  }
+  return selection;
+}
+
+Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress) {
+  auto selection = beside_incidents(frame, limits, progress);
   if (!selection) return tl::unexpected(selection.error());
   if (progress) progress(0.75, "proving on recordings held out");
   const auto proved = leave_out_unproved(frame, limits, *selection);

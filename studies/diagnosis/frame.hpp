@@ -24,6 +24,15 @@ struct Segment {
   Split split = Split::unassigned;
 };
 
+/// A stretch of one recording that has something of its own, and is left out.
+struct Incident {
+  Equation equation = Equation::torsion;  ///< whose residual shows it
+  std::size_t segment = 0;
+  Eigen::Index first = 0;  ///< row of the frame
+  Eigen::Index count = 0;
+  double size = 0.0;  ///< rms of what the laws leave there, over the largest torque
+};
+
 /// All recordings of a set on one list of rows, motions smoothed. SI; motor quantities at the motor
 /// shaft, others at the output. A channel that the rig does not have is zero; on a specimen the
 /// imposed motion is motor, load and torsion at once, with ratio 1 unless stated.
@@ -43,6 +52,7 @@ struct Frame {
   std::vector<Equation> equations;
   std::vector<std::string> notes;  ///< what could not be judged, and why
   std::vector<Segment> segments;
+  std::vector<Incident> incidents;
 
   Eigen::ArrayXd time;   ///< of the recording
   Eigen::ArrayXd clock;  ///< shared by the set, from 0

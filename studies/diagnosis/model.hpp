@@ -24,9 +24,9 @@ inline std::size_t index_of(Equation equation) { return static_cast<std::size_t>
 /// The baseline and causes, as fitted. Baseline: torsion tau = f(phi) + g^-1(phi'/h(phi)), f and
 /// g^-1 odd and rising, ln h = c1 x^2 + c2 x^4, phi from a zero of its own, with an offset on a
 /// specimen; a travelling
-/// specimen f(angle) free, Coulomb and viscous friction; load tau = J2 theta_l'' + B2 theta_l';
-/// motor tau_m = J1 theta_m'' + B1 theta_m' + tau/N and dry friction, a mixture of
-/// tanh(theta_m'/w).
+/// specimen f(angle) free, dry friction of several widths and viscous friction; load tau = J2
+/// theta_l'' + B2 theta_l'; motor tau_m = J1 theta_m'' + B1 theta_m' + tau/N and dry friction, a
+/// mixture of tanh(theta_m'/w).
 struct DriveModel {
   std::vector<double> torsion_shape;  ///< c1, c2, zero; travelling: ln of the Coulomb rate
   std::vector<ActiveCause> causes;

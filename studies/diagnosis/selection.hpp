@@ -43,6 +43,7 @@ struct Limits {
   double physics = 0.5;          ///< larger causes, shares of torque, are a mistake of units
   double rescaled = 0.4;         ///< and so are gains that are off by more
   double ripple_share = 0.25;  ///< least share of the fast changes in steady strokes that is named
+  std::size_t incidents = 3;   ///< stretches of single recordings that are left out at most
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has
 };

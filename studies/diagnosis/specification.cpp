@@ -203,13 +203,17 @@ class Specifier {
     spec().g_inverse = {.law = "odd_polynomial",
                         .scale = seen_.rate_range,
                         .knots = {},
-                        .coefficients = {own[travel + 1]},
+                        .coefficients = {own[own.size() - 1]},
                         .valid_to = seen_.rate_range};
     spec().h = {.law = "bounded_modulation", .scale = 1.0, .knots = {}, .coefficients = {}};
-    spec().effects.push_back({"coulomb_viscous_friction",
-                              {{"coulomb", own[travel]},
-                               {"viscous", 0.0},
-                               {"smoothing", reference_.torsion_coulomb_rate}}});
+    const auto widths = travelling_widths(model_.torsion_shape);
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      const double coulomb = own[travel + static_cast<Index>(k)];
+      if (!(coulomb > 0.0)) continue;
+      spec().effects.push_back(
+          {"coulomb_viscous_friction",
+           {{"coulomb", coulomb}, {"viscous", 0.0}, {"smoothing", widths[k]}}});
+    }
   }
 
   const Frame& frame_;

@@ -325,6 +325,8 @@ std::string spelled_verdict(const Selection& s, const Limits& limits, const Diag
     case Verdict::undecided:
       break;
   }
+  const bool incident = !d.mismatch.empty() && d.mismatch.front().coordinate == "window";
+  if (!s.remainder && incident) return fmt::format("{}.", d.mismatch.front().says);
   if (!s.remainder && left_unnamed(s, limits) == nullptr) {
     return fmt::format(
         "Physics is missing that no catalogued effect explains: the error on held-out "

@@ -40,11 +40,25 @@ Mismatch mismatch_of(const Frame& frame, const Selection& s, const Accepted& sma
   return m;
 }
 
+Mismatch incident_in(const Frame& frame, const Incident& one) {
+  const Segment& s = frame.segments[one.segment];
+  return {.recording = s.id,
+          .from_s = frame.time[one.first],
+          .to_s = frame.time[one.first + one.count - 1],
+          .coordinate = "window",
+          .equation = std::string(name_of(one.equation)),
+          .says = fmt::format("{} alone has something in the {} equation from {:.4g} to {:.4g} s "
+                              "(rms {:.2g} % of torque): left out, look at the recording",
+                              s.id, name_of(one.equation), frame.time[one.first],
+                              frame.time[one.first + one.count - 1], 100.0 * one.size)};
+}
+
 }  // namespace
 
 std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
                                        const Limits& limits) {
   std::vector<Mismatch> list;
+  for (const Incident& one : frame.incidents) list.push_back(incident_in(frame, one));
   for (const Accepted& a : s.accepted) {
     if (listed(list, a.trial.cause.row->coordinate)) continue;
     const Equation equation = first_equation(frame, *a.trial.cause.form);

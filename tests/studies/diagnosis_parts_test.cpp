@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
+#include "autoregression.hpp"
 #include "diagnosis/locate.hpp"
 #include "diagnosis/noise.hpp"
 #include "diagnosis/periodic_angle.hpp"
@@ -16,19 +16,6 @@ namespace {
 
 using Eigen::ArrayXd;
 using Eigen::Index;
-
-/// x_k = rho x_{k-1} + e_k, of unit variance. rho = 0: white.
-ArrayXd coloured_noise(Index count, double rho, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal;
-  ArrayXd noise(count);
-  double state = normal(generator);
-  for (Index k = 0; k < count; ++k) {
-    noise[k] = state;
-    state = rho * state + std::sqrt(1.0 - rho * rho) * normal(generator);
-  }
-  return noise;
-}
 
 TEST(RunningParabola, WeightsSumToOneAndAreSymmetric) {
   for (const Index half : {2, 5, 25, 80}) {

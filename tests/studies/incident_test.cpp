@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include "autoregression.hpp"
+#include "diagnosis/incident.hpp"
+#include "drive_frame.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+/// Findings that leave this of the load equation, and white noise of every one.
+Findings leaving(const Frame& frame, const ArrayXd& what) {
+  Findings findings;
+  unsigned seed = 20;
+  for (const Equation each : frame.equations) {
+    const std::size_t e = index_of(each);
+    const double level = 0.005 * frame.largest_torque(each);
+    findings.fit.residual[e] = level * coloured_noise(frame.rows(), 0.0, ++seed);
+    if (each == Equation::load) findings.fit.residual[e] += what;
+    findings.weight[e] = weights_of(frame, {level, level});
+  }
+  return findings;
+}
+
+struct Case {
+  Index first, count;
+  double height;  ///< of the largest torque; 0: white noise of five times the level
+};
+
+TEST(Incident, ABurstAPulseAndAStepAreFoundWhereTheyAre) {
+  const Frame frame = closed_form_frame(6000);
+  const double torque = frame.largest_torque(Equation::load);
+  for (const Case& one : {Case{3500, 300, 0.0}, Case{1200, 30, 0.03}, Case{4500, 1500, 0.02}}) {
+    ArrayXd what = ArrayXd::Zero(frame.rows());
+    auto part = what.segment(one.first, one.count);
+    part = one.height > 0.0 ? ArrayXd::Constant(one.count, one.height * torque)
+                            : ArrayXd(0.025 * torque * coloured_noise(one.count, 0.0, 5));
+    const auto found = find_incident(frame, leaving(frame, what), {});
+    ASSERT_TRUE(found.has_value()) << one.first;
+    EXPECT_EQ(found->equation, Equation::load);
+    EXPECT_EQ(found->segment, one.first < 3000 ? 0U : 1U);
+    const Index from = std::max(found->first, one.first);
+    const Index to = std::min(found->first + found->count, one.first + one.count);
+    EXPECT_GT(to - from, std::min<Index>(one.count, 100) * 8 / 10) << one.first;
+    const Frame rest = without_incident(frame, *found);
+    EXPECT_EQ(rest.usable.segment(found->first, found->count).maxCoeff(), 0.0);
+    EXPECT_EQ(rest.incidents.size(), 1U);
+  }
+}
+
+TEST(Incident, NoiseHasNoneNorHasWhatEveryRecordingHas) {
+  const Frame frame = closed_form_frame(6000);
+  EXPECT_FALSE(find_incident(frame, leaving(frame, ArrayXd::Zero(frame.rows())), {}));
+  ArrayXd both = ArrayXd::Zero(frame.rows());
+  const double torque = frame.largest_torque(Equation::load);
+  for (const Index first : {1000, 4000}) both.segment(first, 200).setConstant(0.03 * torque);
+  EXPECT_FALSE(find_incident(frame, leaving(frame, both), {}));
+}
+
+// One row in a hundred ten times off, as of a Student t of few degrees.
+TEST(Incident, ATailIsNone) {
+  const Frame frame = closed_form_frame(6000);
+  const double level = 0.005 * frame.largest_torque(Equation::load);
+  ArrayXd tails = ArrayXd::Zero(frame.rows());
+  const ArrayXd lots = coloured_noise(frame.rows(), 0.0, 6);
+  tails = (lots > 2.33).select(10.0 * level, (lots < -2.33).select(-10.0 * level, tails));
+  EXPECT_FALSE(find_incident(frame, leaving(frame, tails), {}));
+}
+
+}  // namespace
+}  // namespace flexspline::studies
