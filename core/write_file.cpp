@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "flexspline/core/passing_file.hpp"
+
 namespace flexspline {
 namespace {
 
@@ -104,6 +106,14 @@ UnfinishedFile::UnfinishedFile(std::filesystem::path final_path)
 
 UnfinishedFile::~UnfinishedFile() {
   ::unlink(temporary_.c_str());
+  if (slot_ >= 0) unfinished[static_cast<std::size_t>(slot_)] = nullptr;
+}
+
+PassingFile::PassingFile(std::filesystem::path path)
+    : path_(std::move(path)), slot_(slot_for(path_.c_str())) {}
+
+PassingFile::~PassingFile() {
+  ::unlink(path_.c_str());
   if (slot_ >= 0) unfinished[static_cast<std::size_t>(slot_)] = nullptr;
 }
 

@@ -1,9 +1,14 @@
 #include "read_checked.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <map>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "checksum.hpp"
+#include "flexspline/core/case_store.hpp"
 #include "flexspline/core/nesting.hpp"
 #include "flexspline/core/text_place.hpp"
 #include "flexspline/core/write_file.hpp"
@@ -24,6 +29,26 @@ Result<View> read_view(const std::filesystem::path& path, std::string_view schem
   } catch (const nlohmann::json::exception&) {
     return failure(ErrorCode::bad_data, path.string() + ": " + kOtherKind);
   }
+}
+
+/// How long diagnoses took lies beside the artefacts, which do not depend on it.
+void add_wall_times(const std::filesystem::path& folder, TrialView& view) {
+  std::map<std::string, double, std::less<>> by_key;
+  const auto store = CaseStore::open(folder, [&](const CaseHead& head) {
+    by_key.insert_or_assign(std::string(head.key), head.seconds);
+  });
+  if (!store || by_key.empty()) return;
+  std::vector<double> all;
+  for (ShownTrialCase& one : view.cases) {
+    const auto found = by_key.find(one.key);
+    if (found == by_key.end()) continue;
+    one.seconds = found->second;
+    all.push_back(one.seconds);
+  }
+  if (all.empty()) return;
+  std::ranges::sort(all);
+  view.scores.numbers["seconds_median"] = all[all.size() / 2];
+  view.scores.numbers["seconds_max"] = all.back();
 }
 
 }  // namespace
@@ -63,7 +88,11 @@ Result<DiagnosisView> read_diagnosis(const std::filesystem::path& folder) {
 }
 
 Result<TrialView> read_trial(const std::filesystem::path& folder) {
-  return read_view(folder / "trial.json", "flexspline-trial-result/1", parse_trial);
+  return read_view(folder / "trial.json", "flexspline-trial-result/1", parse_trial)
+      .map([&](TrialView&& view) {
+        add_wall_times(folder, view);
+        return std::move(view);
+      });
 }
 
 Result<VerificationView> read_verification(const std::filesystem::path& folder) {

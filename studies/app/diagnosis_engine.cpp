@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/in_parallel.hpp"
-#include "flexspline/studies/decision.hpp"
 #include "quantity_text.hpp"
 
 namespace flexspline::app {
@@ -44,7 +43,7 @@ ArgumentInfo interest_argument() {
           .value = "SHARE"};
 }
 
-Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs) {
+Result<std::map<std::string, std::string>> engine_words(const Arguments& arguments) {
   const std::string name = arguments.text("engine", "rules");
   if (name != "rules" && name != "evidence") {
     return failure(ErrorCode::usage, fmt::format("--engine is '{}'", name),
@@ -54,25 +53,27 @@ Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs) {
     return failure(ErrorCode::usage, "--interest is for --engine evidence",
                    "leave it out, or add --engine evidence");
   }
+  const auto interest = interest_of(arguments);
+  if (!interest) return tl::unexpected(interest.error());
+  if (name == "rules") return std::map<std::string, std::string>{};
+  return std::map<std::string, std::string>{{"engine", name},
+                                            {"interest", fmt::format("{}", *interest)}};
+}
+
+Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs) {
+  const auto words = engine_words(arguments);
+  if (!words) return tl::unexpected(words.error());
   const std::vector<std::string> held_out = arguments.texts("holdout");
-  if (name != "rules" && !held_out.empty()) {
+  if (held_out.empty()) return studies::diagnose_as(*words, jobs);
+  if (!words->empty()) {
     return failure(ErrorCode::usage, "--holdout is for --engine rules",
                    "leave it out: every recording is held out by the outer folds");
   }
-  const auto interest = interest_of(arguments);
-  if (!interest) return tl::unexpected(interest.error());
   const auto found = static_cast<int>(threads_for(0));
   const auto threads = static_cast<unsigned>(std::max(1, jobs > 0 ? found / jobs : 1));
-  if (name == "rules") {
-    return [threads, held_out](const RecordingSet& recordings,
-                               const studies::DiagnosisProgress& progress) {
-      return studies::diagnose(recordings, progress, threads, held_out);
-    };
-  }
-  return [threads, share = *interest](const RecordingSet& recordings,
-                                      const studies::DiagnosisProgress& progress) {
-    return studies::diagnose_by_evidence(recordings, progress,
-                                         {.interest = share, .threads = threads});
+  return [threads, held_out](const RecordingSet& recordings,
+                             const studies::DiagnosisProgress& progress) {
+    return studies::diagnose(recordings, progress, threads, held_out);
   };
 }
 

@@ -14,4 +14,7 @@ ArgumentInfo interest_argument();
 /// none.
 Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs = 1);
 
+/// The same in words, as a trial keeps it; none for the usual one.
+Result<std::map<std::string, std::string>> engine_words(const Arguments& arguments);
+
 }  // namespace flexspline::app

@@ -5,7 +5,6 @@
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/reports/report.hpp"
-#include "flexspline/studies/results.hpp"
 #include "output_folder.hpp"
 #include "stop_signal.hpp"
 #include "version.hpp"
@@ -27,46 +26,65 @@ void say_what_was_done(const studies::RunSummary& summary, Console& console) {
 
 /// Everything that a study's folder may hold.
 const std::vector<std::string>& study_files() {
-  static const std::vector<std::string> names = {
-      "study.lock.toml", "inputs",    "journals",
-      "paper.json",      "kind.json", "results.nc",
-      "tables",          "report",    "ro-crate-metadata.json",
-      "estimate.json",   "model.toml"};
+  static const std::vector<std::string> names = {"study.lock.toml",
+                                                 "inputs",
+                                                 "journals",
+                                                 "commitments",
+                                                 "paper.json",
+                                                 "kind.json",
+                                                 "trial.json",
+                                                 "results.nc",
+                                                 "tables",
+                                                 "report",
+                                                 "ro-crate-metadata.json",
+                                                 "estimate.json",
+                                                 "model.toml"};
   return names;
 }
 
 /// A study file is what it says; a study of one data set is that data set.
-OutputWish wish_of(const studies::StudyPlan& plan, const FolderRun& run) {
-  const studies::StudyConfig& study = *plan.study;
-  OutputWish wish{run.command, run.folder, study.name, {}, study.file, run.read, run.force};
-  for (const studies::InputConfig& input : study.inputs) {
-    if (!input.dataset.empty()) wish.read.push_back(input.dataset);
-  }
-  if (!study.file.empty()) {
-    wish.sha256 = data::sha256_hex(read_file(study.file).value_or(""));
-    wish.read.push_back(study.file);
-  } else if (!plan.datasets.empty()) {
-    wish.sha256 = plan.datasets.begin()->second.sha256;
-    wish.place = study.inputs.front().dataset;
+OutputWish wish_of(const studies::PlannedStudy& study, const FolderRun& run) {
+  const bool trial = study.kind() == "trial";  // whichever of the two commands runs it
+  OutputWish wish{trial ? "trial" : run.command,
+                  run.folder,
+                  study.name(),
+                  {},
+                  study.file(),
+                  run.read,
+                  run.force};
+  for (const std::filesystem::path& one : study.reads()) wish.read.push_back(one);
+  const auto sums = study.data();
+  if (!study.file().empty()) {
+    wish.sha256 = data::sha256_hex(read_file(study.file()).value_or(""));
+    wish.read.push_back(study.file());
+  } else if (!sums.empty()) {
+    wish.sha256 = sums.begin()->second;
+    wish.place = study.reads().front();
   }
   return wish;
 }
 
 studies::RunSettings settings_of(const FolderRun& run, Console& console, ProgressLine& line) {
-  studies::RunSettings settings;
-  settings.folder = run.folder;
-  settings.jobs = static_cast<int>(run.jobs);
+  studies::RunSettings settings = settings_in(run.folder, run.jobs, console);
   settings.shard = run.shard;
+  settings.pulling.on = run.pulls;
   settings.limits = run.limits;
-  settings.build_id = build_id();
-  settings.versions = versions();
-  settings.stop = &stop_requested();
   settings.progress = [&line](const studies::Progress& progress) { line.show(progress); };
-  settings.log = [&console](std::string_view text) { console.detail(text); };
   return settings;
 }
 
 }  // namespace
+
+studies::RunSettings settings_in(const std::filesystem::path& folder, long jobs, Console& console) {
+  studies::RunSettings settings;
+  settings.folder = folder;
+  settings.jobs = static_cast<int>(jobs);
+  settings.build_id = build_id();
+  settings.versions = versions();
+  settings.stop = &stop_requested();
+  settings.log = [&console](std::string_view text) { console.detail(text); };
+  return settings;
+}
 
 Result<FolderRun> folder_run(const Arguments& arguments, std::string command) {
   const Result<long> jobs = jobs_of(arguments);
@@ -81,46 +99,28 @@ Result<FolderRun> folder_run(const Arguments& arguments, std::string command) {
 
 namespace {
 
-Result<void> refuse_many(const studies::StudyPlan& plan, const FolderRun& run) {
-  if (plan.size() <= kMany || run.yes_many) return {};
+Result<void> refuse_many(const studies::PlannedStudy& study, const FolderRun& run) {
+  if (study.size() <= kMany || run.yes_many) return {};
   return failure(
-      ErrorCode::usage, fmt::format("the study has {} cases", plan.size()),
+      ErrorCode::usage, fmt::format("the study has {} cases", study.size()),
       fmt::format("flexspline plan says how long they take; more than {} need --yes-many", kMany));
 }
 
-/// Results, tables and report of what the folder holds.
-Result<std::filesystem::path> gather(const studies::StudyPlan& plan,
-                                     const std::filesystem::path& folder) {
-  const auto rows = studies::StudyRows::open(plan, folder);
-  if (!rows) return tl::unexpected(rows.error());
-  const auto written =
-      studies::write_results(*rows, versions(), folder)
-          .and_then([&] { return studies::write_answer(*rows, folder); })
-          .and_then([&] { return studies::write_ro_crate(plan, versions(), folder); });
-  if (!written) return tl::unexpected(written.error());
-  return reports::write_report(folder).map(
-      [](const reports::WrittenReport& report) { return report.page; });
-}
-
 /// What would be reused, were the cases of the folder all of the study.
-Result<studies::RunSummary> only_gathered(const studies::StudyPlan& plan,
+Result<studies::RunSummary> only_gathered(const studies::PlannedStudy& study,
                                           const std::filesystem::path& folder) {
-  const auto rows = studies::StudyRows::open(plan, folder);
-  if (!rows) return tl::unexpected(rows.error());
-  studies::RunSummary summary;
-  summary.cases = plan.size();
-  summary.reused = rows->done();
-  summary.failures = rows->failed();
-  const std::size_t missing = plan.size() - std::min(plan.size(), rows->done());
-  if (missing > 0) summary.failed.push_back(fmt::format("{} cases are not there", missing));
+  auto summary = study.done(folder);
+  if (!summary) return summary;
+  const std::size_t missing = study.size() - std::min(study.size(), summary->reused);
+  if (missing > 0) summary->failed.push_back(fmt::format("{} cases are not there", missing));
   return summary;
 }
 
-Result<studies::RunSummary> computed(const studies::StudyPlan& plan, const FolderRun& run,
+Result<studies::RunSummary> computed(const studies::PlannedStudy& study, const FolderRun& run,
                                      Console& console) {
-  if (run.gather) return only_gathered(plan, run.folder);
+  if (run.gather) return only_gathered(study, run.folder);
   ProgressLine line(console);
-  auto summary = studies::run_study(plan, settings_of(run, console, line));
+  auto summary = study.run(settings_of(run, console, line));
   if (summary && summary->interrupted) {
     return failure(ErrorCode::interrupted,
                    fmt::format("interrupted after {} of {} cases",
@@ -132,9 +132,9 @@ Result<studies::RunSummary> computed(const studies::StudyPlan& plan, const Folde
 
 }  // namespace
 
-Result<void> claim_for(const studies::StudyPlan& plan, const FolderRun& run) {
-  if (auto few = refuse_many(plan, run); !few) return few;
-  const auto output = OutputFolder::claim(wish_of(plan, run));
+Result<void> claim_for(const studies::PlannedStudy& study, const FolderRun& run) {
+  if (auto few = refuse_many(study, run); !few) return few;
+  const auto output = OutputFolder::claim(wish_of(study, run));
   if (!output) return tl::unexpected(output.error());
   // Scripts and what they say lie there before anything else does.
   return write_file(run.folder / "slurm" / "README", "Scripts and output of the job array.\n");
@@ -160,25 +160,25 @@ void ProgressLine::show(const studies::Progress& progress) {
   console_->say(text_of(progress));
 }
 
-Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study, const FolderRun& run,
+Result<studies::RunSummary> run_in_folder(const studies::PlannedStudy& study, const FolderRun& run,
                                           Console& console, std::filesystem::path& report) {
-  const std::filesystem::path& folder = run.folder;
-  const auto plan = studies::plan_study(study, build_id());
-  if (!plan) return tl::unexpected(plan.error());
-  if (const auto few = refuse_many(*plan, run); !few) return tl::unexpected(few.error());
-  auto output = OutputFolder::claim(wish_of(*plan, run));
+  if (const auto few = refuse_many(study, run); !few) return tl::unexpected(few.error());
+  auto output = OutputFolder::claim(wish_of(study, run));
   if (!output) return tl::unexpected(output.error());
-  for (const auto& [input, note] : plan->notes) console.say(fmt::format("{}: {}", input, note));
-  auto summary = computed(*plan, run, console);
+  for (const auto& [input, note] : study.notes()) console.say(fmt::format("{}: {}", input, note));
+  auto summary = computed(study, run, console);
   if (!summary) return summary;
   say_what_was_done(*summary, console);
   if (!run.shard.whole()) return summary;
   if (run.when_computed) {
     if (const auto used = run.when_computed(*summary); !used) return tl::unexpected(used.error());
   }
-  const auto page = gather(*plan, folder);
+  const auto gathered = study.gather(run.folder, settings_in(run.folder, run.jobs, console));
+  if (!gathered) return tl::unexpected(gathered.error());
+  const auto page = reports::write_report(run.folder);
   if (!page) return tl::unexpected(page.error());
-  report = *page;
+  report = page->page;
+  studies::remove_claims(run.folder);
   if (auto done = output->finish(study_files()); !done) return tl::unexpected(done.error());
   return summary;
 }

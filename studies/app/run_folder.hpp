@@ -7,7 +7,7 @@
 
 #include "command.hpp"
 #include "flexspline/core/case_store.hpp"
-#include "flexspline/studies/run.hpp"
+#include "flexspline/studies/planned_study.hpp"
 
 namespace flexspline::app {
 
@@ -21,6 +21,7 @@ struct FolderRun {
   long jobs = 0;
   bool force = false;
   studies::Shard shard{};
+  bool pulls = false;  ///< takes packs from what is left, instead of the shard's own part
   studies::CaseLimits limits{};
   bool gather = false;    ///< computes nothing: results and report of the cases that are there
   bool yes_many = false;  ///< however many cases there are
@@ -31,15 +32,18 @@ struct FolderRun {
 /// --out, --jobs and --force of the arguments. Errors: usage.
 Result<FolderRun> folder_run(const Arguments& arguments, std::string command);
 
-/// Plans and runs a study in a folder with progress on the console, then draws its report.
+/// Runs a study in a folder with progress on the console, then draws its report.
 /// Gives what the run did; `report` is set to the page's path unless the run was interrupted or is
 /// one shard of several, which leave results and report to who gathers them.
-/// Errors: of planning, cannot_write, interrupted, those of when_computed.
-Result<studies::RunSummary> run_in_folder(const studies::StudyConfig& study, const FolderRun& run,
+/// Errors: usage, cannot_write, interrupted, those of when_computed.
+Result<studies::RunSummary> run_in_folder(const studies::PlannedStudy& study, const FolderRun& run,
                                           Console& console, std::filesystem::path& report);
 
 /// Refuses what is too much, and claims the folder for a study. Errors: usage, cannot_write.
-Result<void> claim_for(const studies::StudyPlan& plan, const FolderRun& run);
+Result<void> claim_for(const studies::PlannedStudy& study, const FolderRun& run);
+
+/// Settings of a run in that folder, without progress. Callbacks log to the console.
+studies::RunSettings settings_in(const std::filesystem::path& folder, long jobs, Console& console);
 
 /// One case of a study's folder. Errors: of CaseStore.
 Result<StoredCase> stored_case(const std::filesystem::path& folder, std::string_view key);

@@ -6,11 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "flexspline/studies/pilot.hpp"
 #include "flexspline/studies/slurm.hpp"
 #include "flexspline/studies/status.hpp"
 #include "stop_signal.hpp"
-#include "version.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -23,24 +21,24 @@ constexpr double kElementSeconds = 10.0;  // Slurm takes some 0.2 s to begin one
 constexpr long kMostElements = 1000;
 
 /// As many elements as give each of them ten seconds of work.
-std::size_t elements_for(const studies::StudyPlan& plan, long processors, Console& console) {
-  const studies::Pilot pilot = studies::measure_pilot(plan, kPilotSeconds);
+std::size_t elements_for(const studies::PlannedStudy& study, long processors, Console& console) {
+  const studies::Pilot pilot = study.pilot(kPilotSeconds);
   const double seconds = pilot.seconds / static_cast<double>(processors);
   const double elements =
       std::clamp(seconds / kElementSeconds, 1.0,
-                 static_cast<double>(std::min<std::size_t>(plan.size(), kMostElements)));
+                 static_cast<double>(std::min<std::size_t>(study.size(), kMostElements)));
   console.say(fmt::format("about {:.3g} s of work: {:.0f} elements", pilot.seconds, elements));
   return static_cast<std::size_t>(elements);
 }
 
-Result<studies::SlurmJob> job_of(const Arguments& arguments, const studies::StudyPlan& plan,
+Result<studies::SlurmJob> job_of(const Arguments& arguments, const studies::PlannedStudy& study,
                                  const FolderRun& run, Console& console) {
   const auto given = arguments.integer("elements", 0, 1, 10'000);
   if (!given) return tl::unexpected(given.error());
   const long processors = std::max(1L, run.jobs);
   studies::SlurmJob job;
   job.folder = fs::absolute(run.folder);
-  job.name = "flexspline-" + plan.study->name;
+  job.name = "flexspline-" + study.name();
   job.run = {fs::read_symlink("/proc/self/exe").string(),
              "run",
              fs::absolute(arguments.text("study")).string(),
@@ -59,7 +57,7 @@ Result<studies::SlurmJob> job_of(const Arguments& arguments, const studies::Stud
   }
   job.processors = static_cast<int>(processors);
   job.elements =
-      *given > 0 ? static_cast<std::size_t>(*given) : elements_for(plan, processors, console);
+      *given > 0 ? static_cast<std::size_t>(*given) : elements_for(study, processors, console);
   job.options = arguments.texts("sbatch");
   return job;
 }
@@ -95,13 +93,11 @@ Result<void> wait_for(const studies::SlurmIds& ids, const fs::path& folder, Cons
 
 }  // namespace
 
-Result<ExitCode> run_on_slurm(const Arguments& arguments, const studies::StudyConfig& study,
+Result<ExitCode> run_on_slurm(const Arguments& arguments, const studies::PlannedStudy& study,
                               const FolderRun& run, Console& console) {
-  const auto plan = studies::plan_study(study, build_id());
-  if (!plan) return tl::unexpected(plan.error());
-  const auto claimed = claim_for(*plan, run);
+  const auto claimed = claim_for(study, run);
   if (!claimed) return tl::unexpected(claimed.error());
-  const auto job = job_of(arguments, *plan, run, console);
+  const auto job = job_of(arguments, study, run, console);
   if (!job) return tl::unexpected(job.error());
   const auto ids = studies::submit(*job);
   if (!ids) return tl::unexpected(ids.error());

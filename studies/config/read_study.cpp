@@ -48,6 +48,11 @@ void read_kind(TomlSection& root, StudyConfig& study) {
     return root.refuse("kind", fmt::format("there is no kind of study '{}'", study.kind),
                        suggestion(study.kind, names));
   }
+  if (row->schema != kSchema) {
+    return root.refuse("kind",
+                       fmt::format("a study of kind '{}' has a file of its own form", row->id),
+                       fmt::format("write schema = \"{}\", and leave kind out", row->schema));
+  }
   if (row->read == nullptr || !root.clean()) return;
   static const toml::table nothing;
   auto own = root.table(study.kind);

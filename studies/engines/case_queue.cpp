@@ -1,9 +1,12 @@
 #include "engines/case_queue.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 
 #include <fmt/format.h>
+
+#include "flexspline/data/checksum.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -28,7 +31,34 @@ CaseQueue::CaseQueue(CaseSource& source, const EngineSettings& settings, std::si
       workers_(std::make_unique<Worker[]>(workers)),
       worker_count_(workers) {}
 
-Result<void> CaseQueue::plan() {
+Result<std::vector<bool>> CaseQueue::done_in_folder() const {
+  const auto store = CaseStore::open(settings_->folder);
+  if (!store) return tl::unexpected(store.error());
+  std::vector<bool> done(source_->size());
+  if (store->size() == 0) return done;
+  for (std::size_t number = 0; number < done.size(); ++number) {
+    done[number] = store->contains(CaseStore::digest_of(source_->name(number).depends_on));
+  }
+  return done;
+}
+
+Result<void> CaseQueue::plan_pulling(const std::string& who) {
+  auto done = done_in_folder();
+  if (!done) return tl::unexpected(done.error());
+  const std::size_t total = source_->size();
+  summary_.reused = static_cast<std::size_t>(std::ranges::count(*done, true));
+  const std::string study =
+      data::sha256_hex(fmt::format("{} {} {}", total, source_->name(0).depends_on,
+                                   source_->name(total - 1).depends_on))
+          .substr(0, 16);
+  const Pulling& pulling = settings_->pulling;
+  puller_.emplace(total, Claims(settings_->folder, study, who, pulling.lease_seconds), pulling,
+                  std::move(*done), [this] { return done_in_folder(); });
+  return {};
+}
+
+Result<void> CaseQueue::plan(const std::string& who) {
+  if (settings_->pulling.on && source_->size() > 0) return plan_pulling(who);
   std::map<std::string, std::string, std::less<>> failures;  // of earlier runs, by depends_on
   const auto store = CaseStore::open(settings_->folder, [&](const CaseHead& head) {
     if (!head.failure.empty()) failures.emplace(head.depends_on, head.failure);
@@ -78,19 +108,40 @@ Result<void> CaseQueue::set_stale_aside(const CaseStore& store,
   return {};
 }
 
-std::size_t CaseQueue::pull(std::size_t worker) {
-  workers_[worker].since = 0;
-  if (broken_ || (settings_->stop != nullptr && *settings_->stop)) return none();
-  const std::size_t at = next_.fetch_add(1);
-  if (at >= todo_.size()) return none();
-  workers_[worker].number = todo_[at];
-  workers_[worker].since = EngineClock::now().time_since_epoch().count();
-  return todo_[at];
+bool CaseQueue::take_pack() {
+  const std::chrono::duration<double> spent = EngineClock::now() - start_;
+  const std::size_t computed = computed_;
+  auto taken = puller_->take(computed > 0 ? spent.count() / static_cast<double>(computed)
+                                          : std::numeric_limits<double>::quiet_NaN());
+  if (!taken) {
+    break_off(taken.error());
+    return false;
+  }
+  todo_.insert(todo_.end(), taken->cases.begin(), taken->cases.end());
+  return taken->later;
 }
 
-StoredCase CaseQueue::compute(std::size_t number) {
+std::size_t CaseQueue::pull(std::size_t worker) {
+  workers_[worker].since = 0;
+  const std::scoped_lock lock(pulling_);
+  const bool stop = broken_ || (settings_->stop != nullptr && *settings_->stop);
+  if (stop) {
+    stopped_ = stopped_ || next_ < todo_.size() || (puller_ && puller_->untaken() > 0);
+    return none();
+  }
+  const bool later = puller_ && next_ == todo_.size() && take_pack();
+  if (next_ == todo_.size()) return later ? this->later() : none();
+  const std::size_t number = todo_[next_++];
+  workers_[worker].number = number;
+  workers_[worker].since = EngineClock::now().time_since_epoch().count();
+  return number;
+}
+
+Result<StoredCase> CaseQueue::compute(std::size_t number) {
   try {
-    return stored(source_->name(number), source_->compute(number));
+    CaseResult result = source_->compute(number);
+    if (result.broken) return tl::unexpected(std::move(*result.broken));
+    return stored(source_->name(number), std::move(result));
   } catch (const std::bad_alloc&) {
     const double limit = settings_->limits.memory_mb;
     return give_up(number, {ErrorCode::numerics,
@@ -136,7 +187,7 @@ Progress CaseQueue::progress() const {
   const auto now = EngineClock::now();
   Progress state;
   state.done = summary_.reused + computed_;
-  state.total = summary_.cases;
+  state.total = settings_->pulling.on ? source_->size() : summary_.cases;
   state.failed = failed_;
   state.seconds = std::chrono::duration<double>(now - start_).count();
   state.per_second = static_cast<double>(computed_) / std::max(1e-9, state.seconds);
@@ -158,9 +209,10 @@ Result<EngineSummary> CaseQueue::summary() const {
   const std::scoped_lock lock(mutex_);
   if (error_) return tl::unexpected(*error_);
   EngineSummary summary = summary_;
+  if (puller_) summary.cases = summary.reused + todo_.size();
   summary.computed = computed_;
   summary.failed = failed_;
-  summary.interrupted = summary.computed < todo_.size();
+  summary.interrupted = stopped_ || summary.computed < todo_.size();
   std::ranges::sort(summary.failures);
   return summary;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engines/pull_packs.hpp"
 #include "flexspline/core/case_store.hpp"
 #include "flexspline/studies/engine.hpp"
 
@@ -19,13 +20,15 @@ class CaseQueue {
  public:
   CaseQueue(CaseSource& source, const EngineSettings& settings, std::size_t workers);
 
-  /// What the folder holds counts as done. Errors: those of CaseStore::open, cannot_write.
-  Result<void> plan();
+  /// What the folder holds counts as done. who: this run among others in the folder.
+  /// Errors: those of CaseStore::open, cannot_write.
+  Result<void> plan(const std::string& who);
 
-  /// The next case of a worker; size() of the source where there is none, or a stop was asked for.
+  /// The next case of a worker; none() where there is none, or a stop was asked for; later() where
+  /// there may be one soon.
   std::size_t pull(std::size_t worker);
-  /// Computes it. Never throws.
-  StoredCase compute(std::size_t number);
+  /// Computes it. Never throws. Errors: nothing can be computed any more.
+  Result<StoredCase> compute(std::size_t number);
   StoredCase give_up(std::size_t number, const Error& why);
   /// Counts a case that was written.
   void count(std::size_t worker, const StoredCase& one);
@@ -33,7 +36,8 @@ class CaseQueue {
 
   CaseName name(std::size_t number) const { return source_->name(number); }
   std::size_t none() const { return source_->size(); }
-  std::size_t left() const { return todo_.size(); }
+  std::size_t later() const { return source_->size() + 1; }
+  std::size_t left() const { return puller_ ? source_->size() : todo_.size(); }
   Progress progress() const;
   Result<EngineSummary> summary() const;
 
@@ -45,12 +49,19 @@ class CaseQueue {
 
   Result<void> set_stale_aside(const CaseStore& store,
                                const std::vector<CaseStore::Digest>& planned);
+  Result<std::vector<bool>> done_in_folder() const;
+  Result<void> plan_pulling(const std::string& who);
+  /// Takes the next pack; whether there may be one later.
+  bool take_pack();
   void note_failure(std::string_view key, std::string_view reason);
 
   CaseSource* source_;
   const EngineSettings* settings_;
   std::vector<std::size_t> todo_;
-  std::atomic<std::size_t> next_{0};
+  std::size_t next_ = 0;  ///< of them
+  std::mutex pulling_;    ///< of both
+  std::optional<PackPuller> puller_;
+  bool stopped_ = false;  ///< before all of it was taken
   std::atomic<std::size_t> computed_{0};
   std::atomic<std::size_t> failed_{0};
   std::atomic<bool> broken_{false};

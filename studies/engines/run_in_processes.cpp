@@ -79,11 +79,11 @@ void hold_to(const CaseLimits& limits) {
   auto journal = JournalWriter::open(settings.folder / "journals");
   std::uint64_t number = 0;
   while (get(in, &number, sizeof number)) {
-    StoredCase one = queue.compute(number);
+    const auto one = journal ? queue.compute(number) : tl::unexpected(journal.error());
     const auto written =
-        journal ? append_case(*journal, one) : Result<void>(tl::unexpected(journal.error()));
+        one ? append_case(*journal, *one) : Result<void>(tl::unexpected(one.error()));
     const std::string problem = written ? "" : written.error().message();
-    if (!put_text(out, problem) || !put_text(out, one.failure)) break;
+    if (!put_text(out, problem) || !put_text(out, one ? one->failure : "")) break;
   }
   ::_exit(0);
 }
@@ -98,12 +98,14 @@ class WorkerProcess {
   ~WorkerProcess() { end(SIGKILL); }
 
   bool busy() const { return busy_; }
+  bool waits() const { return waits_; }  ///< for a case that may come
   int answers() const { return from_; }
 
   /// Hands out the next case; false where there is none.
   bool begin() {
     number_ = queue_->pull(worker_);
-    if (number_ == queue_->none()) return false;
+    waits_ = number_ == queue_->later();
+    if (waits_ || number_ == queue_->none()) return false;
     if (child_ <= 0 && !start()) return false;
     const std::uint64_t number = number_;
     static_cast<void>(put(to_, &number, sizeof number));  // where it is gone, its answer says so
@@ -199,6 +201,7 @@ class WorkerProcess {
   int from_ = -1;
   std::size_t number_ = 0;
   bool busy_ = false;
+  bool waits_ = false;
   EngineClock::time_point begun_;
 };
 
@@ -214,12 +217,15 @@ void run_in_processes(CaseQueue& queue, const EngineSettings& settings, std::siz
   while (true) {
     std::vector<pollfd> waiting;
     std::vector<WorkerProcess*> whose;
+    bool any_waits = false;
     for (const auto& one : all) {
+      if (one->waits()) one->begin();
+      any_waits = any_waits || one->waits();
       if (!one->busy()) continue;
       waiting.push_back({one->answers(), POLLIN, 0});
       whose.push_back(one.get());
     }
-    if (waiting.empty()) return;
+    if (waiting.empty() && !any_waits) return;
     ::poll(waiting.data(), waiting.size(), kTickMs);
     for (std::size_t i = 0; i < whose.size(); ++i) {
       if (waiting[i].revents != 0)

@@ -39,16 +39,22 @@ class Ticker {
 };
 
 void work(CaseQueue& queue, const EngineSettings& settings, std::size_t worker) {
-  std::size_t number = queue.pull(worker);
+  const auto pull = [&] {
+    std::size_t number = queue.pull(worker);
+    for (; number == queue.later(); number = queue.pull(worker)) std::this_thread::sleep_for(kTick);
+    return number;
+  };
+  std::size_t number = pull();
   if (number == queue.none()) return;
   auto journal = JournalWriter::open(settings.folder / "journals");
   if (!journal) return queue.break_off(journal.error());
-  for (; number != queue.none(); number = queue.pull(worker)) {
-    const StoredCase one = queue.compute(number);
-    if (const auto written = append_case(*journal, one); !written) {
+  for (; number != queue.none(); number = pull()) {
+    const auto one = queue.compute(number);
+    if (!one) return queue.break_off(one.error());
+    if (const auto written = append_case(*journal, *one); !written) {
       return queue.break_off(written.error());
     }
-    queue.count(worker, one);
+    queue.count(worker, *one);
   }
 }
 

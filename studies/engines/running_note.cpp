@@ -35,18 +35,21 @@ double age_of(const fs::path& file) {
 }  // namespace
 
 RunningNote::RunningNote(const fs::path& folder, const Shard& shard)
-    : file_(folder / "journals" / fmt::format("{}-{}.running", host(), ::getpid())), shard_(shard) {
+    : who_(fmt::format("{}-{}-{:x}", host(), ::getpid(),
+                       std::chrono::system_clock::now().time_since_epoch().count() & 0xffffff)),
+      file_(folder / "journals" / (who_ + ".running")),
+      shard_(shard) {}
+
+void remove_old_notes(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder / "journals", ignored)) {
     const fs::path& path = entry.path();
-    if (path.extension() != ".running") continue;
-    if (age_of(path) > kGone) fs::remove(path, ignored);
+    if (path.extension() == ".running" && age_of(path) > kGone) fs::remove(path, ignored);
   }
 }
 
-RunningNote::~RunningNote() {
-  std::error_code ignored;
-  fs::remove(file_, ignored);
+std::string note_of(const fs::path& folder, const std::string& who) {
+  return read_file(folder / "journals" / (who + ".running")).value_or("");
 }
 
 void RunningNote::write(const Progress& state) const {
@@ -60,7 +63,7 @@ void RunningNote::write(const Progress& state) const {
                      {"per_second", state.per_second},
                      {"slowest", state.slowest},
                      {"slowest_for", state.slowest_for}};
-  static_cast<void>(write_file(file_, note.dump()));  // the cases say the same, later
+  static_cast<void>(write_file(file_.path(), note.dump()));  // the cases say the same, later
 }
 
 std::vector<RunningShard> running_in(const fs::path& folder) {

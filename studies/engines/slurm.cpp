@@ -55,7 +55,7 @@ std::string slurm_array_script(const SlurmJob& job) {
 #SBATCH --cpus-per-task={}
 #SBATCH --requeue
 #SBATCH --signal=B:TERM@{}
-{} --shard "$SLURM_ARRAY_TASK_ID/{}" &
+{} --shard "$SLURM_ARRAY_TASK_ID/{}" --pull &
 trap 'kill -TERM $!' TERM
 wait $!; status=$?
 while kill -0 $! 2>/dev/null; do wait $!; status=$?; done

@@ -63,4 +63,23 @@ Pilot measure_pilot(const StudyPlan& plan, double seconds) {
   return pilot;
 }
 
+Pilot measure_cases(CaseSource& cases, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  Pilot pilot;
+  double bytes = 0.0;
+  double spent = 0.0;
+  for (std::size_t k = 0; k < kMostMeasured && k < cases.size() && spent < seconds; ++k) {
+    const CaseResult one = cases.compute(k * cases.size() / std::min(kMostMeasured, cases.size()));
+    spent = std::chrono::duration<double>(Clock::now() - start).count();
+    bytes += static_cast<double>(one.artefact.size() + one.row.size());
+    ++pilot.measured;
+  }
+  const double share = static_cast<double>(cases.size()) /
+                       static_cast<double>(std::max<std::size_t>(1, pilot.measured));
+  pilot.seconds = spent * share;
+  pilot.bytes = bytes * share;
+  return pilot;
+}
+
 }  // namespace flexspline::studies

@@ -97,52 +97,30 @@ class Beside {
   std::optional<Error> error_;
 };
 
-/// Cases of version 1, a file each, are of another build in any case.
-void set_old_cases_aside(const RunSettings& settings) {
-  const fs::path old = settings.folder / "cases";
-  std::error_code error;
-  if (!fs::is_directory(old, error)) return;
-  fs::path aside = settings.folder / "cases.stale";
-  for (int k = 2; fs::exists(aside, error); ++k) {
-    aside = settings.folder / fmt::format("cases.stale-{}", k);
-  }
-  fs::rename(old, aside, error);
-  if (!error && settings.log) {
-    settings.log(fmt::format("cases of an earlier version, a file each: set aside as {}",
-                             aside.filename().string()));
-  }
-}
-
 }  // namespace
 
 Result<RunSummary> run_study(const StudyPlan& plan, const RunSettings& settings) {
   const Clock::time_point start = Clock::now();
-  if (const auto locked = write_lock(plan, settings); !locked) {
+  StudyCases cases(plan);
+  if (const auto locked = write_lock(plan, cases, settings); !locked) {
     return tl::unexpected(locked.error());
   }
   set_old_cases_aside(settings);
-  StudyCases cases(plan);
-  RunSummary summary;
   // Workers that are processes have to begin before any thread of this one.
-  const auto engine = [&] { return run_cases(cases, settings); };
   Beside beside(plan, settings, cases);
   const bool first = settings.shard.index == 1;
   if (first && !settings.limits.any()) {
     if (const auto written = beside(); !written) return tl::unexpected(written.error());
   }
-  auto ran = engine();
+  auto ran = run_cases(cases, settings);
   if (!ran) return tl::unexpected(ran.error());
   if (first && settings.limits.any() && !ran->interrupted) {
     if (const auto written = beside(); !written) return tl::unexpected(written.error());
   }
-  summary.cases = ran->cases;
-  summary.computed = ran->computed;
-  summary.reused = ran->reused;
-  summary.failed = std::move(ran->failures);
+  RunSummary summary = summary_of(std::move(*ran));
   for (const std::string& one : beside.failed()) summary.failed.push_back(one);
-  summary.failures = ran->failed + beside.failed().size();
-  summary.damaged = std::move(ran->damaged);
-  summary.interrupted = ran->interrupted || (settings.stop != nullptr && *settings.stop);
+  summary.failures += beside.failed().size();
+  summary.interrupted = summary.interrupted || (settings.stop != nullptr && *settings.stop);
   summary.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return summary;
 }

@@ -48,9 +48,9 @@ std::vector<EffectTrace> known_traces(const ConcealPlan& plan, const RecordingSe
   return unknown;
 }
 
-Result<std::string> salt_of(const TrialCase& one, const TrialSettings& settings) {
-  if (settings.salt.empty()) return data::fresh_salt();
-  return data::sha256_hex(settings.salt + one.key);
+/// Who has the trial's seed can draw its cases anyway; so a case is the same whenever it is run.
+std::string salt_of(const TrialConfig& trial, const TrialCase& one) {
+  return data::sha256_hex(fmt::format("salt {} {} {}", trial.name, trial.seed, one.key));
 }
 
 Attempt diagnose_case(const RecordingSet& recordings, double time_limit, const Diagnose& diagnose) {
@@ -63,9 +63,9 @@ Attempt diagnose_case(const RecordingSet& recordings, double time_limit, const D
   }
   attempt.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (attempt.seconds > time_limit) {
-    attempt.diagnosis = failure(
-        ErrorCode::numerics,
-        fmt::format("it took {:.1f} s, where {:.1f} s are allowed", attempt.seconds, time_limit));
+    attempt.diagnosis =
+        failure(ErrorCode::numerics,
+                fmt::format("it took longer than the {:.3g} s that are allowed", time_limit));
   }
   return attempt;
 }
@@ -80,19 +80,19 @@ Result<void> score(const Attempt& attempt, ordered_json& artefact) {
   if (diagnosis != nullptr) artefact["diagnosis"] = excerpt_of(*diagnosis);
   if (diagnosis == nullptr) artefact["failure"] = attempt.diagnosis.error().message();
   artefact["score"] = to_json(score_case(*answer, diagnosis));
-  artefact["seconds"] = attempt.seconds;
   return {};
 }
 
 /// Seals the answer in the artefact, and shows the commitment before anyone is asked.
-Result<void> commit(const TrialCase& one, const ConcealedAnswer& concealed,
-                    const TrialSettings& settings, ordered_json& artefact) {
-  const auto salt = salt_of(one, settings);
-  if (!salt) return tl::unexpected(salt.error());
+Result<void> commit(const TrialConfig& trial, const TrialCase& one,
+                    const ConcealedAnswer& concealed, const TrialSettings& settings,
+                    ordered_json& artefact) {
+  const std::string salt = salt_of(trial, one);
   const ordered_json answer = to_json(concealed);
-  artefact["sealed"] = data::sealed(answer, *salt);
+  artefact["sealed"] = data::sealed(answer, salt);
   artefact["commitment"] =
-      data::commitment_to(answer, *salt, fmt::format("what was concealed in {}", one.key));
+      data::commitment_to(answer, salt, fmt::format("what was concealed in {}", one.key));
+  if (settings.run.folder.empty()) return {};
   return data::write_artefact(settings.run.folder / "commitments" / (one.key + ".json"),
                               artefact["commitment"]);
 }
@@ -102,8 +102,7 @@ ordered_json empty_artefact(const TrialCase& one, const std::string& depends_on)
                            {"key", one.key},
                            {"depends_on", depends_on},
                            {"status", "done"}};
-  for (const char* key :
-       {"failure", "commitment", "sealed", "diagnosis", "score", "seconds", "trace"}) {
+  for (const char* key : {"failure", "commitment", "sealed", "diagnosis", "score", "trace"}) {
     artefact[key] = nullptr;
   }
   return artefact;
@@ -112,15 +111,12 @@ ordered_json empty_artefact(const TrialCase& one, const std::string& depends_on)
 }  // namespace
 
 std::string dependencies_of(const TrialConfig& trial, const TrialCase& one,
-                            const std::string& build_id) {
-  ordered_json what = {{"build", build_id},
-                       {"rig", name_of(one.plan.rig)},
-                       {"seed", one.plan.seed},
-                       {"time_limit", trial.time_limit},
-                       {"nuisances", one.plan.nuisances},
-                       {"disturbances", one.plan.disturbances},
-                       {"generator", one.plan.generator},
-                       {"source", one.plan.source.string()},
+                            const TrialSettings& settings) {
+  ordered_json what = {{"build", settings.run.build_id},  {"diagnosis", settings.diagnosis},
+                       {"salt", salt_of(trial, one)},     {"rig", name_of(one.plan.rig)},
+                       {"seed", one.plan.seed},           {"time_limit", trial.time_limit},
+                       {"nuisances", one.plan.nuisances}, {"disturbances", one.plan.disturbances},
+                       {"generator", one.plan.generator}, {"source", one.plan.source.string()},
                        {"change", one.plan.change}};
   for (const data::HiddenEffect& effect : one.plan.effects) {
     what["effects"].push_back({effect.id, effect.size_fraction});
@@ -128,27 +124,30 @@ std::string dependencies_of(const TrialConfig& trial, const TrialCase& one,
   return data::sha256_hex(what.dump());
 }
 
-Result<ordered_json> compute_trial_case(const TrialConfig& trial, const TrialCase& one,
-                                        const TrialSettings& settings, const Diagnose& diagnose) {
-  ordered_json artefact = empty_artefact(one, dependencies_of(trial, one, settings.run.build_id));
+Result<TrialCaseResult> compute_trial_case(const TrialConfig& trial, const TrialCase& one,
+                                           const TrialSettings& settings,
+                                           const Diagnose& diagnose) {
+  TrialCaseResult result{empty_artefact(one, dependencies_of(trial, one, settings)), 0.0};
+  ordered_json& artefact = result.artefact;
   ConcealPlan plan = one.plan;
   const auto concealed = conceal_case(plan);
   if (!concealed) {
     artefact["status"] = "not concealed";
     artefact["failure"] = concealed.error().message();
-    return artefact;
+    return result;
   }
-  const auto committed = commit(one, concealed->answer, settings, artefact);
+  const auto committed = commit(trial, one, concealed->answer, settings, artefact);
   if (!committed) return tl::unexpected(committed.error());
   if (!settings.recordings.empty()) {
     const auto kept = data::write_dataset(settings.recordings / one.key, concealed->recordings);
     if (!kept) return tl::unexpected(kept.error());
   }
-  const auto scored =
-      score(diagnose_case(concealed->recordings, trial.time_limit, diagnose), artefact);
+  const Attempt attempt = diagnose_case(concealed->recordings, trial.time_limit, diagnose);
+  result.seconds = attempt.seconds;
+  const auto scored = score(attempt, artefact);
   if (!scored) return tl::unexpected(scored.error());
   artefact["trace"] = to_json(known_traces(plan, concealed->recordings));
-  return artefact;
+  return result;
 }
 
 }  // namespace flexspline::studies

@@ -6,6 +6,7 @@
 #include "conceal/generator.hpp"
 #include "config/toml_root.hpp"
 #include "flexspline/core/nearest_name.hpp"
+#include "flexspline/core/write_file.hpp"
 #include "flexspline/studies/trial.hpp"
 
 namespace flexspline::studies {
@@ -108,17 +109,24 @@ TrialConfig read_config(TomlSection& root, const Folders& folders) {
 
 }  // namespace
 
-Result<TrialReading> read_trial(const std::filesystem::path& file,
-                                const std::filesystem::path& data_root) {
+TrialReading read_trial_text(const std::string& text, const std::filesystem::path& file,
+                             const std::filesystem::path& data_root) {
   const Folders folders{file.parent_path(), data_root.empty() ? file.parent_path() : data_root};
   TrialConfig trial;
-  auto findings =
-      read_toml_root(file, [&](TomlSection& root) { trial = read_config(root, folders); });
-  if (!findings) return tl::unexpected(findings.error());
-  TrialReading reading{std::nullopt, *std::move(findings)};
+  TrialReading reading;
+  reading.errors =
+      read_toml_text(text, file, [&](TomlSection& root) { trial = read_config(root, folders); });
   trial.file = file;
+  trial.data_root = folders.data;
   if (reading.errors.empty()) reading.trial = std::move(trial);
   return reading;
+}
+
+Result<TrialReading> read_trial(const std::filesystem::path& file,
+                                const std::filesystem::path& data_root) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  return read_trial_text(*text, file, data_root);
 }
 
 Result<TrialConfig> load_trial(const std::filesystem::path& file,

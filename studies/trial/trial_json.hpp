@@ -17,6 +17,9 @@ nlohmann::ordered_json to_json(const std::vector<EffectTrace>& traces);
 /// A case as its artefact (docs/trials.md) holds it. Errors: bad_data.
 Result<ScoredCase> scored_case_from_json(const nlohmann::ordered_json& artefact);
 
+/// What a trial was told to draw.
+nlohmann::ordered_json design_json(const TrialConfig& trial);
+
 /// DIR/trial.json.
 nlohmann::ordered_json trial_json(const TrialConfig& trial, const TrialSummary& summary,
                                   const std::string& build_id);

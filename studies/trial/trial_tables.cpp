@@ -51,6 +51,7 @@ TextTable scores(const TrialSummary& summary) {
     for (const TrialScores& column : columns) row.push_back(std::to_string(column.counter(name)));
   }
   for (const auto& [name, value] : columns.front().medians) {
+    if (name.starts_with("seconds")) continue;
     Row& row = table.rows.emplace_back(Row{name});
     for (const TrialScores& column : columns) row.push_back(shown(column.median(name)));
   }
@@ -132,9 +133,9 @@ TextTable effects(const std::vector<ScoredCase>& cases) {
 }
 
 TextTable list(const std::vector<ScoredCase>& cases) {
-  TextTable table{"cases",
-                  {{"case", "rig", "hidden", "size %", "trace %", "verdict", "named",
-                    "hold-out over noise", "seconds"}}};
+  TextTable table{
+      "cases",
+      {{"case", "rig", "hidden", "size %", "trace %", "verdict", "named", "hold-out over noise"}}};
   for (const ScoredCase& one : cases) {
     std::vector<std::string> hidden;
     std::vector<std::string> size;
@@ -146,7 +147,7 @@ TextTable list(const std::vector<ScoredCase>& cases) {
     for (const EffectTrace& left : one.traces) trace.push_back(percent(left.share));
     table.rows.push_back({one.key, std::string(name_of(one.answer.rig)), joined(hidden),
                           joined(size), joined(trace), one.verdict, joined(one.named),
-                          shown(one.score.after_over_noise), shown(one.seconds)});
+                          shown(one.score.after_over_noise)});
   }
   return table;
 }

@@ -182,6 +182,140 @@ TEST_F(Engine, AReadOnlyFolderIsNamed) {
   EXPECT_EQ(summary.error().code, ErrorCode::cannot_write);
 }
 
+/// A case that takes far longer than all others.
+class OneSlowCase : public ToyCases {
+ public:
+  OneSlowCase() : ToyCases(200, 1ms, false) {}
+  CaseResult compute(std::size_t number) override {
+    if (number == 3) std::this_thread::sleep_for(1500ms);
+    return ToyCases::compute(number);
+  }
+};
+
+class Pullers : public Engine {
+ protected:
+  EngineSettings pulling(std::size_t index, double pack_seconds = 0.02, double lease = 10.0) const {
+    EngineSettings with = settings(1, {index, 2});
+    with.pulling = {true, pack_seconds, lease};
+    return with;
+  }
+  /// Cases that were computed, whoever did; what a child has computed is what it adds.
+  std::size_t records() const {
+    std::size_t count = 0;
+    for (const auto& file : journals_in(folder_.path() / "journals")) {
+      count += scan_journal(file, [](JournalFields, RecordPlace) {})->records;
+    }
+    return count;
+  }
+};
+
+// The other half of the cases must not wait for the slow one, nor be computed twice.
+TEST_F(Pullers, ASlowCaseHoldsUpNobody) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    OneSlowCase cases;
+    static_cast<void>(run_cases(cases, pulling(1)));
+    ::_exit(0);
+  }
+  OneSlowCase cases;
+  std::this_thread::sleep_for(20ms);
+  const auto own = run_cases(cases, pulling(2));
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(own) << own.error().message();
+  EXPECT_EQ(records(), 200U);
+  const auto store = CaseStore::open(folder_.path());
+  ASSERT_TRUE(store);
+  EXPECT_EQ(store->size(), 200U);
+  EXPECT_GT(own->computed, 130U) << "with fixed halves it had 100";
+}
+
+TEST_F(Pullers, WhatAKilledOneHadIsTakenByTheOthers) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ToyCases cases(200, 5ms);
+    static_cast<void>(run_cases(cases, pulling(1)));
+    ::_exit(0);
+  }
+  std::this_thread::sleep_for(150ms);
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ToyCases cases(200, 100us);
+  const auto own = run_cases(cases, pulling(2, 0.02, 1.0));
+  ASSERT_TRUE(own) << own.error().message();
+  EXPECT_FALSE(own->interrupted);
+  EXPECT_EQ(artefacts(), expected(200));
+  EXPECT_EQ(records(), 200U);
+}
+
+// Whoever ended by itself, or was stopped, has no note any more: nobody waits for its lease.
+TEST_F(Pullers, WhatAStoppedOneHadIsTakenAtOnce) {
+  std::atomic<bool> stop = false;
+  EngineSettings first = pulling(1, 0.02, 1000.0);
+  first.stop = &stop;
+  std::jthread asks([&] {
+    std::this_thread::sleep_for(100ms);
+    stop = true;
+  });
+  ToyCases cases(300, 1ms);
+  const auto stopped = run_cases(cases, first);
+  ASSERT_TRUE(stopped) << stopped.error().message();
+  EXPECT_TRUE(stopped->interrupted);
+  const auto rest = run_cases(cases, pulling(2, 0.02, 1000.0));
+  ASSERT_TRUE(rest) << rest.error().message();
+  EXPECT_FALSE(rest->interrupted);
+  EXPECT_EQ(artefacts(), expected(300));
+}
+
+// The lease is told by whether a note changes, not by anybody's clock.
+TEST_F(Pullers, AClockThatJumpsNeitherFreesNorHoldsAPack) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ToyCases cases(40, 20ms);
+    static_cast<void>(run_cases(cases, pulling(1, 1000.0)));
+    ::_exit(0);
+  }
+  std::jthread jumps([&](const std::stop_token& stop) {
+    using Time = std::filesystem::file_time_type;
+    for (int k = 0; !stop.stop_requested(); ++k) {
+      std::error_code ignored;
+      const auto to = Time::clock::now() + (k % 2 == 0 ? 9999h : -9999h);
+      for (const auto& entry :
+           std::filesystem::directory_iterator(folder_.path() / "journals", ignored)) {
+        std::filesystem::last_write_time(entry.path(), to, ignored);
+      }
+      std::this_thread::sleep_for(5ms);
+    }
+  });
+  std::this_thread::sleep_for(100ms);
+  ToyCases cases(40);
+  const auto own = run_cases(cases, pulling(2));
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  jumps.request_stop();
+  ASSERT_TRUE(own) << own.error().message();
+  EXPECT_EQ(artefacts(), expected(40));
+  EXPECT_EQ(records(), 40U) << "none twice";
+}
+
+TEST_F(Pullers, ClaimsAreFewAndGoWithTheStudy) {
+  ToyCases cases(100'000, {}, false);
+  for (const std::size_t index : {1U, 2U}) {
+    ASSERT_TRUE(run_cases(cases, pulling(index, 0.001)));
+  }
+  std::size_t files = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(folder_.path() / "claims")) {
+    files += entry.is_regular_file() ? 1 : 0;
+  }
+  EXPECT_LE(files, 2200U);
+  const auto whole = run_cases(cases, settings());
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->computed, 0U);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "claims"));
+}
+
 /// Cases that do what no case should.
 class WildCases : public ToyCases {
  public:

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/case_store.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/commitment.hpp"
 #include "study_file.hpp"
@@ -39,7 +40,7 @@ class RunTrial : public testing::Test {
     settings.run.jobs = 2;
     settings.run.build_id = build_;
     settings.run.stop = stop;
-    settings.salt = "pepper";
+    settings.diagnosis = {{"engine", "of this test"}};
     return run_trial(trial, settings, diagnose);
   }
   /// Says of all recordings that nothing was left out, and counts how often it was asked.
@@ -49,11 +50,15 @@ class RunTrial : public testing::Test {
       return diagnosis_with(Verdict::adequate, {});
     };
   }
-  std::filesystem::path case_file(int k) const {
-    return folder_.path() / "out" / "cases" / ("case-000" + std::to_string(k) + ".json");
+  static std::string key(int k) { return "case-000" + std::to_string(k); }
+  std::string text(int k) const {
+    const auto store = CaseStore::open(folder_.path() / "out");
+    const auto one = store ? store->read(key(k)) : tl::unexpected(store.error());
+    EXPECT_TRUE(one) << one.error().message();
+    return one ? one->artefact : "";
   }
   ordered_json artefact(int k) const {
-    return data::read_artefact(case_file(k), kTrialCaseSchema).value_or(ordered_json{});
+    return data::parse_artefact(text(k), key(k), kTrialCaseSchema).value_or(ordered_json{});
   }
 
   ScratchFolder folder_;
@@ -86,7 +91,7 @@ TEST_F(RunTrial, ScoresWhatItUnsealsAndKeepsTheProof) {
     const ordered_json one = artefact(k);
     EXPECT_TRUE(data::unseal(one.at("commitment"), one.at("sealed")).has_value());
     const auto open = data::read_artefact(
-        folder_.path() / "out" / "commitments" / case_file(k).filename(), data::kCommitmentSchema);
+        folder_.path() / "out" / "commitments" / (key(k) + ".json"), data::kCommitmentSchema);
     ASSERT_TRUE(open.has_value());
     EXPECT_EQ(*open, one.at("commitment"));
   }
@@ -115,6 +120,53 @@ TEST_F(RunTrial, OfADiagnosisWithoutFaultIsWithoutFault) {
   EXPECT_NEAR(scores.median("holdout_after_over_best_median"), 1.0, 1e-12);
 }
 
+// Whoever computes them, however often it was killed or stopped: nothing of the run is in them.
+TEST_F(RunTrial, GivesTheSameBytesWithAnyNumberOfWorkersAndShards) {
+  ASSERT_TRUE(run(small_trial(6), nothing_left_out()).has_value());
+  std::vector<std::string> once;
+  for (int k = 0; k < 6; ++k) once.push_back(text(k));
+  const std::string result = read_text(folder_.path() / "out" / "trial.json");
+  std::filesystem::remove_all(folder_.path() / "out");
+  for (const Shard shard : {Shard{2, 2}, Shard{1, 2}, Shard{}}) {
+    TrialSettings settings;
+    settings.run.folder = folder_.path() / "out";
+    settings.run.jobs = shard.whole() ? 2 : 1;
+    settings.run.build_id = build_;
+    settings.run.shard = shard;
+    settings.diagnosis = {{"engine", "of this test"}};
+    ASSERT_TRUE(run_trial(small_trial(6), settings, nothing_left_out()).has_value());
+  }
+  for (int k = 0; k < 6; ++k) EXPECT_EQ(text(k), once[static_cast<std::size_t>(k)]);
+  EXPECT_EQ(read_text(folder_.path() / "out" / "trial.json"), result);
+  EXPECT_EQ(asked_, 12);
+}
+
+// What another diagnosis made of a case is no result of this one.
+TEST_F(RunTrial, AnotherDiagnosisDoesNotTakeItsCasesOver) {
+  ASSERT_TRUE(run(small_trial(2), nothing_left_out()).has_value());
+  TrialSettings settings;
+  settings.run.folder = folder_.path() / "out";
+  settings.run.build_id = build_;
+  settings.diagnosis = {{"engine", "another"}};
+  EXPECT_EQ(run_trial(small_trial(2), settings, nothing_left_out())->run.computed, 2U);
+}
+
+TEST_F(RunTrial, ItsLockPlansTheSameTrial) {
+  const auto file = folder_.write("t.toml",
+                                  "schema = \"flexspline-trial/1\"\nname = \"t\"\nseed = 5\n"
+                                  "rigs = [\"locked\"]\ncases = 3\n[draw]\none = 1\n");
+  const auto trial = load_trial(file);
+  ASSERT_TRUE(trial) << trial.error().message();
+  ASSERT_TRUE(run(*trial, nothing_left_out()).has_value());
+  const auto planned = plan_locked(folder_.path() / "out" / "study.lock.toml", {}, build_);
+  ASSERT_TRUE(planned) << planned.error().message();
+  EXPECT_EQ((*planned)->kind(), "trial");
+  EXPECT_EQ((*planned)->size(), 3U);
+  const auto done = (*planned)->done(folder_.path() / "out");
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_EQ(done->reused, 3U);
+}
+
 TEST_F(RunTrial, RedoesNothingThatIsValid) {
   ASSERT_TRUE(run(small_trial(3), nothing_left_out()).has_value());
   const std::string first = read_text(folder_.path() / "out" / "trial.json");
@@ -127,7 +179,11 @@ TEST_F(RunTrial, RedoesNothingThatIsValid) {
 
 TEST_F(RunTrial, GoesOnWithMoreCasesAndRedoesDamagedOnes) {
   ASSERT_TRUE(run(small_trial(3), nothing_left_out()).has_value());
-  folder_.write("out/cases/case-0001.json", read_text(case_file(1)) + "x");
+  const auto journal = journals_in(folder_.path() / "out" / "journals").front();
+  std::string damaged = read_text(journal);
+  const auto at = damaged.find("\tcase-000");
+  damaged[damaged.find("adequate", at)] = 'A';
+  folder_.write("out/journals/" + journal.filename().string(), damaged);
   const auto more = run(small_trial(5), nothing_left_out());
   EXPECT_EQ(more->run.reused, 2U);
   EXPECT_EQ(more->run.computed, 3U);
@@ -138,7 +194,8 @@ TEST_F(RunTrial, GoesOnWithMoreCasesAndRedoesDamagedOnes) {
 TEST_F(RunTrial, SetsCasesAsideThatItHasNoMore) {
   ASSERT_TRUE(run(small_trial(3), nothing_left_out()).has_value());
   EXPECT_EQ(run(small_trial(2), nothing_left_out())->cases.size(), 2U);
-  EXPECT_TRUE(exists(std::filesystem::path(case_file(2).string() + ".stale")));
+  const auto store = CaseStore::open(folder_.path() / "out");
+  EXPECT_EQ(store->size(), 2U);
 }
 
 TEST_F(RunTrial, StopsAfterTheCaseAtHandAndGoesOnFromThere) {

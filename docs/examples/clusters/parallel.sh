@@ -4,5 +4,5 @@ set -e
 study=$1 out=$2 shards=$3
 shift 3
 flexspline=${FLEXSPLINE:-flexspline}
-seq "$shards" | parallel "$@" "$flexspline" run "$study" --out "$out" --jobs 1 --shard "{}/$shards"
+seq "$shards" | parallel "$@" "$flexspline" run "$study" --out "$out" --jobs 1 --pull --shard "{}/$shards"
 exec "$flexspline" run "$study" --out "$out" --gather

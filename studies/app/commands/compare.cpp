@@ -10,6 +10,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "output_folder.hpp"
 #include "run_folder.hpp"
+#include "version.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -87,7 +88,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!study) return tl::unexpected(study.error());
   study->inputs.front().rows = *rows;
   std::filesystem::path report;
-  const auto summary = run_in_folder(*study, *where, console, report);
+  const auto planned = studies::plan_fits(*study, build_id());
+  if (!planned) return tl::unexpected(planned.error());
+  const auto summary = run_in_folder(**planned, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
   const ordered_json table = table_of(*study, where->folder);
   console.result(console.json

@@ -15,6 +15,7 @@
 #include "output_folder.hpp"
 #include "run_folder.hpp"
 #include "servo_set.hpp"
+#include "version.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -185,7 +186,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
     return write_estimate(folder, estimate);
   };
   std::filesystem::path report;
-  const auto summary = run_in_folder(*study, *where, console, report);
+  const auto planned = studies::plan_fits(*study, build_id());
+  if (!planned) return tl::unexpected(planned.error());
+  const auto summary = run_in_folder(**planned, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
   if (!summary->failed.empty()) return kSomethingFailed;
   console.result(console.json ? estimate.dump(2) : summary_of(estimate) + "\n" + report.string());

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "flexspline/studies/study_config.hpp"
 #include "output_folder.hpp"
 #include "run_folder.hpp"
 #include "slurm_run.hpp"
+#include "version.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -44,6 +44,11 @@ Result<void> read_parts(const Arguments& arguments, FolderRun& run) {
     if (!shard) return tl::unexpected(shard.error());
     run.shard = *shard;
   }
+  if (arguments.has("pull") && !arguments.has("shard")) {
+    return failure(ErrorCode::usage, "--pull is for several runs in one folder",
+                   "add --shard i/n, n of them");
+  }
+  run.pulls = arguments.has("pull") && !run.shard.whole();
   const auto seconds = positive(arguments, "case-seconds");
   const auto memory = positive(arguments, "case-memory");
   if (!seconds || !memory) return tl::unexpected(seconds ? memory.error() : seconds.error());
@@ -57,16 +62,17 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   auto where = folder_run(arguments, "run");
   if (!where) return tl::unexpected(where.error());
   if (const auto read = read_parts(arguments, *where); !read) return tl::unexpected(read.error());
-  const auto study = studies::load_study(arguments.text("study"), arguments.text("data-root"));
+  const auto study =
+      studies::plan_file(arguments.text("study"), arguments.text("data-root"), build_id());
   if (!study) return tl::unexpected(study.error());
   const std::string engine = arguments.text("engine", "local");
-  if (engine == "slurm") return run_on_slurm(arguments, *study, *where, console);
+  if (engine == "slurm") return run_on_slurm(arguments, **study, *where, console);
   if (engine != "local") {
     return failure(ErrorCode::usage, fmt::format("there is no engine '{}'", engine),
                    "use local, or slurm");
   }
   std::filesystem::path report;
-  const auto summary = run_in_folder(*study, *where, console, report);
+  const auto summary = run_in_folder(**study, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
   if (console.json) {
     const nlohmann::ordered_json text = {
@@ -90,7 +96,10 @@ CommandRow describe_run() {
       .id = "run",
       .summary = "Runs a study: plan, cases, comparison, report; goes on where it stopped",
       .arguments =
-          {{.name = "study", .meaning = "study file", .value = "STUDY.toml", .required = true},
+          {{.name = "study",
+            .meaning = "study or trial file",
+            .value = "STUDY.toml",
+            .required = true},
            {.name = "--out",
             .meaning = "folder for artefacts and report",
             .value = "DIR",
@@ -100,8 +109,13 @@ CommandRow describe_run() {
            {.name = "--shard",
             .meaning = "part i of n of the cases alone; results and report by a run without it",
             .value = "i/n"},
+           {.name = "--pull",
+            .meaning = "with --shard, in a folder that all shards see: take packs of cases from "
+                       "what is left, instead of the own part",
+            .value = {}},
            {.name = "--gather",
-            .meaning = "compute nothing: results and report of the cases that are there"},
+            .meaning = "compute nothing: results and report of the cases that are there",
+            .value = {}},
            {.name = "--case-seconds",
             .meaning = "a case that takes longer has failed",
             .value = "S"},
@@ -118,7 +132,7 @@ CommandRow describe_run() {
             .meaning = "further option of the job array, e.g. --sbatch=--time=01:00:00",
             .value = "OPTION",
             .repeats = true},
-           {.name = "--yes-many", .meaning = "also more than 100 000 cases"},
+           {.name = "--yes-many", .meaning = "also more than 100 000 cases", .value = {}},
            {.name = "--data-root",
             .meaning = "where relative data-set paths start; default: the study file's folder",
             .value = "DIR"}},

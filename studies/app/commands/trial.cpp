@@ -9,11 +9,9 @@
 #include "diagnosis_engine.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/checksum.hpp"
-#include "flexspline/reports/report.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "output_folder.hpp"
 #include "run_folder.hpp"
-#include "stop_signal.hpp"
 #include "version.hpp"
 
 namespace flexspline::app {
@@ -51,29 +49,6 @@ std::string summary_of(const TrialScores& scores) {
   return text;
 }
 
-void show_progress(Console& console, const studies::Progress& progress) {
-  const std::string text = fmt::format("{}/{} cases, {} failed, {:.0f} s", progress.done,
-                                       progress.total, progress.failed, progress.seconds);
-  console.live(text);
-  const std::size_t tenth = std::max<std::size_t>(1, progress.total / 10);
-  if (!console.is_terminal() && progress.done % tenth == 0) console.say(text);
-}
-
-studies::TrialSettings settings_of(const Arguments& arguments, long jobs, Console& console) {
-  studies::TrialSettings settings;
-  settings.run.folder = arguments.text("out");
-  settings.run.jobs = static_cast<int>(jobs);
-  settings.run.build_id = build_id() + arguments.text("engine") + arguments.text("interest");
-  settings.run.versions = versions();
-  settings.run.stop = &stop_requested();
-  settings.run.progress = [&console](const studies::Progress& progress) {
-    show_progress(console, progress);
-  };
-  settings.run.log = [&console](std::string_view text) { console.detail(text); };
-  settings.recordings = arguments.text("recordings");
-  return settings;
-}
-
 /// Where there are several generators, the rates of each; then of all.
 std::string summary_of(const studies::TrialSummary& summary) {
   std::map<std::string, std::vector<studies::ScoredCase>> groups;
@@ -86,73 +61,67 @@ std::string summary_of(const studies::TrialSummary& summary) {
   return text + summary_of(studies::score_trial(summary.cases));
 }
 
-Result<ExitCode> show(const studies::TrialSummary& summary, const std::filesystem::path& folder,
-                      Console& console) {
+ExitCode show(const studies::TrialSummary& summary, const studies::RunSummary& ran,
+              const std::filesystem::path& folder, const std::filesystem::path& page,
+              Console& console) {
   for (const std::string& one : summary.not_concealed) console.say("not concealed: " + one);
-  for (const std::string& one : summary.run.failed) console.error(one);
-  const auto page = reports::write_report(folder);
-  if (!page) return tl::unexpected(page.error());
   const TrialScores scores = studies::score_trial(summary.cases);
   if (console.json) {
     nlohmann::ordered_json text = {{"trial", (folder / "trial.json").string()},
-                                   {"report", page->page.string()},
-                                   {"cases", summary.run.cases},
-                                   {"computed", summary.run.computed},
-                                   {"reused", summary.run.reused},
+                                   {"report", page.string()},
+                                   {"cases", ran.cases},
+                                   {"computed", ran.computed},
+                                   {"reused", ran.reused},
                                    {"failed", summary.run.failed},
-                                   {"seconds", summary.run.seconds},
+                                   {"seconds", ran.seconds},
                                    {"scores", nlohmann::ordered_json::object()}};
     for (const auto& [name, value] : scores.counters) text["scores"][name] = value;
     for (const auto& [name, value] : scores.medians) text["scores"][name] = value;
     console.result(text.dump(2));
   } else {
     console.say(summary_of(summary));
-    console.result(page->page.string());
+    console.result(page.string());
   }
   return summary.run.failed.empty() && summary.not_concealed.empty() ? kDone : kSomethingFailed;
 }
 
-Result<OutputFolder> claim_for(const studies::TrialConfig& trial, const char* command,
-                               const std::filesystem::path& folder, const Arguments& arguments) {
+/// Claims the folder of the recordings, where they are to be kept.
+Result<std::optional<OutputFolder>> keep_recordings(const studies::TrialConfig& trial,
+                                                    const Arguments& arguments) {
+  if (!arguments.has("recordings")) return std::nullopt;
   const auto text = read_file(trial.file);
   if (!text) return tl::unexpected(text.error());
-  return OutputFolder::claim({command,
-                              folder,
+  return OutputFolder::claim({"trial --recordings",
+                              arguments.text("recordings"),
                               trial.name,
                               data::sha256_hex(*text),
                               trial.file,
                               {trial.file},
-                              arguments.has("force")});
+                              arguments.has("force")})
+      .map([](OutputFolder&& kept) { return std::optional<OutputFolder>(std::move(kept)); });
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
-  const Result<long> jobs = jobs_of(arguments);
-  if (!jobs) return tl::unexpected(jobs.error());
+  const auto where = folder_run(arguments, "trial");
+  if (!where) return tl::unexpected(where.error());
   const auto trial = studies::load_trial(arguments.text("study"), arguments.text("data-root"));
   if (!trial) return tl::unexpected(trial.error());
-  const studies::TrialSettings settings = settings_of(arguments, *jobs, console);
-  const auto engine = engine_of(arguments, static_cast<int>(*jobs));
-  if (!engine) return tl::unexpected(engine.error());
-  auto output = claim_for(*trial, "trial", settings.run.folder, arguments);
-  if (!output) return tl::unexpected(output.error());
-  std::optional<OutputFolder> recordings;
-  if (!settings.recordings.empty()) {
-    auto kept = claim_for(*trial, "trial --recordings", settings.recordings, arguments);
-    if (!kept) return tl::unexpected(kept.error());
-    recordings.emplace(std::move(*kept));
-  }
-  const auto summary = studies::run_trial(*trial, settings, *engine);
+  studies::TrialSettings settings;
+  settings.run.build_id = build_id();
+  settings.run.folder = where->folder;
+  settings.recordings = arguments.text("recordings");
+  const auto diagnosis = engine_words(arguments);
+  if (!diagnosis) return tl::unexpected(diagnosis.error());
+  settings.diagnosis = *diagnosis;
+  auto recordings = keep_recordings(*trial, arguments);
+  if (!recordings) return tl::unexpected(recordings.error());
+  std::filesystem::path page;
+  const auto ran =
+      run_in_folder(*studies::plan_trial_study(*trial, settings), *where, console, page);
+  if (!ran) return tl::unexpected(ran.error());
+  const auto summary = studies::gather_trial(*trial, settings);
   if (!summary) return tl::unexpected(summary.error());
-  if (summary->run.interrupted) {
-    return failure(ErrorCode::interrupted,
-                   fmt::format("interrupted after {} of {} cases",
-                               summary->run.computed + summary->run.reused, summary->run.cases),
-                   "the same command goes on from here");
-  }
-  const auto code = show(*summary, settings.run.folder, console);
-  if (!code) return code;
-  const std::vector<std::string> files = {"trial.json", "cases", "commitments", "report", "tables"};
-  return output->finish(files).map([&] { return *code; });
+  return show(*summary, *ran, where->folder, page, console);
 }
 
 }  // namespace

@@ -13,12 +13,10 @@
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/reports/report.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
-#include "flexspline/studies/results.hpp"
-#include "flexspline/studies/trial.hpp"
+#include "flexspline/studies/planned_study.hpp"
 #include "flexspline/studies/verify.hpp"
 #include "output_folder.hpp"
 #include "run_folder.hpp"
-#include "stop_signal.hpp"
 #include "version.hpp"
 
 namespace flexspline::app {
@@ -27,69 +25,43 @@ namespace {
 namespace fs = std::filesystem;
 
 studies::RunSettings settings_of(const fs::path& again, long jobs, Console& console) {
-  studies::RunSettings settings;
-  settings.folder = again;
-  settings.jobs = static_cast<int>(jobs);
-  settings.build_id = build_id();
-  settings.versions = versions();
-  settings.stop = &stop_requested();
+  studies::RunSettings settings = settings_in(again, jobs, console);
   settings.progress = [&console](const studies::Progress& progress) {
     console.live(
         fmt::format("{}/{} cases, {:.1f} s", progress.done, progress.total, progress.seconds));
   };
-  settings.log = [&console](std::string_view text) { console.detail(text); };
   return settings;
 }
 
 /// A second computation; or the verification that there was no use in one.
 using Again = Result<std::optional<studies::Verification>>;
 
-Again unless_interrupted(bool interrupted) {
-  if (!interrupted) return std::nullopt;
-  return failure(ErrorCode::interrupted, "interrupted; nothing was compared",
-                 "the same command begins anew");
-}
-
 Again run_study_again(const Arguments& arguments, const studies::RunSettings& settings,
                       Console& console) {
-  const auto study =
-      arguments.has("study")
-          ? studies::load_study(arguments.text("study"), arguments.text("data-root"))
-          : studies::read_locked_study(fs::path(arguments.text("dir")) / "study.lock.toml",
-                                       arguments.text("data-root"));
-  if (!study) return tl::unexpected(study.error());
-  const auto plan = studies::plan_study(*study, build_id());
-  if (!plan) return tl::unexpected(plan.error());
-  std::map<std::string, std::string> sums;
-  for (const auto& [id, set] : plan->datasets) sums[id] = set.sha256;
   const fs::path folder = arguments.text("dir");
-  if (auto other = studies::other_data(folder, sums); !other.empty()) {
-    return studies::verify_on_other_data(folder, std::move(other));
-  }
-  const auto summary = studies::run_study(*plan, settings);
-  if (!summary) return tl::unexpected(summary.error());
-  for (const std::string& failed : summary->failed) console.detail(failed);
-  if (summary->interrupted) return unless_interrupted(true);
-  const auto answered = studies::StudyRows::open(*plan, settings.folder)
-                            .and_then([&](const studies::StudyRows& rows) {
-                              return studies::write_answer(rows, settings.folder);
-                            });
-  if (!answered) return tl::unexpected(answered.error());
-  return std::nullopt;
-}
-
-Again run_trial_again(const Arguments& arguments, const studies::RunSettings& settings) {
-  if (!arguments.has("study")) {
-    return failure(ErrorCode::usage, "a trial's folder does not say which file it came from",
+  const fs::path lock = folder / "study.lock.toml";
+  if (!arguments.has("study") && !file_exists(lock) && file_exists(folder / "trial.json")) {
+    return failure(ErrorCode::usage, "this trial's folder does not say which file it came from",
                    "add --study TRIAL.toml");
   }
-  const auto trial = studies::load_trial(arguments.text("study"));
-  if (!trial) return tl::unexpected(trial.error());
-  studies::TrialSettings all;
-  all.run = settings;
-  const auto summary = studies::run_trial(*trial, all);
+  const std::string data_root = arguments.text("data-root");
+  const auto study = arguments.has("study")
+                         ? studies::plan_file(arguments.text("study"), data_root, build_id())
+                         : studies::plan_locked(lock, data_root, build_id());
+  if (!study) return tl::unexpected(study.error());
+  if (auto other = studies::other_data(folder, (*study)->data()); !other.empty()) {
+    return studies::verify_on_other_data(folder, std::move(other));
+  }
+  const auto summary = (*study)->run(settings);
   if (!summary) return tl::unexpected(summary.error());
-  return unless_interrupted(summary->run.interrupted);
+  for (const std::string& failed : summary->failed) console.detail(failed);
+  if (summary->interrupted) {
+    return failure(ErrorCode::interrupted, "interrupted; nothing was compared",
+                   "the same command begins anew");
+  }
+  const auto answered = (*study)->gather(settings.folder, settings, true);
+  if (!answered) return tl::unexpected(answered.error());
+  return std::nullopt;
 }
 
 /// The recordings that a diagnosis took away before its search.
@@ -127,7 +99,6 @@ Again run_again(const Arguments& arguments, const fs::path& again, Console& cons
   fs::remove_all(again, ignored);
   const studies::RunSettings settings = settings_of(again, *jobs, console);
   if (file_exists(folder / "diagnosis.json")) return diagnose_again(arguments, again);
-  if (file_exists(folder / "trial.json")) return run_trial_again(arguments, settings);
   return run_study_again(arguments, settings, console);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ struct CaseResult {
   double seconds = 0.0;    ///< wall time of what is worth timing, beside the artefact
   std::string row{};       ///< JSON of what tables ask of it
   std::string artefact{};  ///< data::sealed()
+  /// Nothing can be computed here any more, by no fault of the case: the run ends with that.
+  std::optional<Error> broken{};
 };
 
 /// The cases of a study by their numbers: all that an engine knows of a study. name() and compute()
@@ -46,6 +49,17 @@ struct Shard {
 
   bool whole() const { return count == 1; }
   bool has(std::size_t number, std::size_t total) const;
+};
+
+/// How shards of one folder share it: each takes packs of neighbouring cases from what is left,
+/// about so many seconds of its own work at a time, so that a slow case holds up nobody. What was
+/// taken is noted in claims/, a file a pack, made by an atomic link; who took it is alive as long
+/// as its note in journals/ changes. A pack whose taker is gone is taken again. Two who compute one
+/// case by mistake compute the same bytes, and it counts once.
+struct Pulling {
+  bool on = false;
+  double pack_seconds = 10.0;
+  double lease_seconds = 30.0;  ///< without a change, after which a taker is gone
 };
 
 /// What one case may take; 0: any. With a limit every worker is a process of its own, which is
@@ -72,6 +86,7 @@ struct EngineSettings {
   std::filesystem::path folder;
   int jobs = 0;  ///< workers; 0: as many as the machine has
   Shard shard{};
+  Pulling pulling{};  ///< of shards: instead of the part that their number says
   CaseLimits limits{};
   const std::atomic<bool>* stop = nullptr;  ///< becomes true: finish the cases at hand and return
   std::function<void(const Progress&)>
@@ -98,5 +113,8 @@ inline constexpr std::size_t kMostFailures = 1000;
 /// workers, shards or interruptions. Errors: cannot_write; bad_data for journals of another
 /// version.
 Result<EngineSummary> run_cases(CaseSource& source, const EngineSettings& settings);
+
+/// Removes what shards that pulled left in claims/, unless somebody still works in the folder.
+void remove_claims(const std::filesystem::path& folder);
 
 }  // namespace flexspline::studies

@@ -24,7 +24,8 @@ struct KindRow {
   void (*read)(TomlSection& own, StudyConfig& study) = nullptr;
   /// What the rows of the cases say. Null, or no sentence: no section of the report.
   KindAnswer (*answer)(const StudyRows& rows) = nullptr;
-  bool chooses_training = false;  ///< estimators need not name a grid to train on
+  bool chooses_training = false;                   ///< estimators need not name a grid to train on
+  std::string_view schema = "flexspline-study/1";  ///< of its files
 };
 
 /// Every kind, one file each in studies/kinds.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "flexspline/studies/engine.hpp"
 #include "flexspline/studies/plan.hpp"
 
 namespace flexspline::studies {
@@ -14,8 +15,11 @@ struct Pilot {
 };
 
 /// Computes cases evenly through the plan, of every cell one first, as many as there is time for
-/// (one at least), and multiplies the median of each estimator by how many cases it has. A case that
-/// fails counts as it is.
+/// (one at least), and multiplies the median of each estimator by how many cases it has. A case
+/// that fails counts as it is.
 Pilot measure_pilot(const StudyPlan& plan, double seconds);
+
+/// The same of cases that are all alike. They write nothing.
+Pilot measure_cases(CaseSource& cases, double seconds);
 
 }  // namespace flexspline::studies

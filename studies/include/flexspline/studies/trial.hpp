@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,7 +10,7 @@
 
 #include "flexspline/studies/conceal.hpp"
 #include "flexspline/studies/diagnosis.hpp"
-#include "flexspline/studies/run.hpp"
+#include "flexspline/studies/planned_study.hpp"
 
 namespace flexspline::studies {
 
@@ -19,6 +20,7 @@ inline constexpr std::string_view kTrialResultSchema = "flexspline-trial-result/
 /// A blind trial as read. SI.
 struct TrialConfig {
   std::filesystem::path file;
+  std::filesystem::path data_root;
   std::string name;
   std::string title;
   std::uint64_t seed = 1;
@@ -43,6 +45,10 @@ struct TrialReading {
 /// Errors: input_missing when the file cannot be read. What is wrong in it is in the reading.
 Result<TrialReading> read_trial(const std::filesystem::path& file,
                                 const std::filesystem::path& data_root = {});
+
+/// The same of text that was read from that file.
+TrialReading read_trial_text(const std::string& text, const std::filesystem::path& file,
+                             const std::filesystem::path& data_root);
 
 /// The same for callers that go no further on a failure.
 /// Errors: input_missing, or bad_data with every finding.
@@ -140,8 +146,8 @@ struct ScoredCase {
   std::vector<std::string> named;
   std::vector<EffectTrace> traces;  ///< of the effects, by name; empty: nothing is hidden
   CaseScore score;
-  double seconds = kNotComputed;
-  std::string failure;  ///< why there is no diagnosis
+  double seconds = kNotComputed;  ///< of the diagnosis; in no artefact
+  std::string failure;            ///< why there is no diagnosis
 
   /// Smallest share of the traces; infinite where nothing is hidden.
   double least_trace() const;
@@ -218,7 +224,8 @@ using Diagnose =
 struct TrialSettings {
   RunSettings run;
   std::filesystem::path recordings;  ///< keeps every data set as recordings/<key>; empty: none
-  std::string salt;                  ///< for tests: salts are derived from it; empty: fresh ones
+  /// What tells the diagnosis from the usual one, by name; part of what a case depends on.
+  std::map<std::string, std::string> diagnosis;
 };
 
 /// What a trial did, with every case that is there.
@@ -228,11 +235,28 @@ struct TrialSummary {
   std::vector<std::string> not_concealed;  ///< "key: reason": not scored
 };
 
-/// Runs what the folder does not yet hold: conceals each case, writes its commitment, has it
-/// diagnosed, unseals and scores it, and writes DIR/cases/<key>.json; then DIR/trial.json and
-/// DIR/tables, unless it was interrupted. Without `diagnose`: studies::diagnose, on the threads
-/// that the cases side by side leave to each. Errors: cannot_write.
+/// Computes what the folder does not yet hold, as run_cases does: conceals each case, writes its
+/// commitment, has it diagnosed, unseals and scores it. Errors: of run_cases.
+Result<RunSummary> run_trial_cases(const TrialConfig& trial, const TrialSettings& settings,
+                                   const Diagnose& diagnose);
+
+/// Every case of the trial that the folder holds. Errors: of CaseStore.
+Result<TrialSummary> gather_trial(const TrialConfig& trial, const TrialSettings& settings);
+
+/// DIR/trial.json and DIR/tables. Errors: cannot_write.
+Result<void> write_trial(const TrialConfig& trial, const TrialSummary& summary,
+                         const RunSettings& settings);
+
+/// The diagnosis of these words, on the threads that so many cases side by side leave to each:
+/// "engine" rules (the usual one) or evidence, "interest" its least share of the largest torque.
+Diagnose diagnose_as(const std::map<std::string, std::string>& words, int jobs);
+
+/// All of it; trial.json and tables unless it was interrupted. Without `diagnose`:
+/// diagnose_as(settings.diagnosis). Errors: as above.
 Result<TrialSummary> run_trial(const TrialConfig& trial, const TrialSettings& settings,
-                               const Diagnose& diagnose = {});
+                               Diagnose diagnose = {});
+
+/// A trial as one more kind of study; settings.run needs its build_id alone.
+PlannedStudyPtr plan_trial_study(TrialConfig trial, TrialSettings settings);
 
 }  // namespace flexspline::studies
