@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "given_model/given_parameters.hpp"
+#include "flexspline/estimators/given_parameters.hpp"
 
 namespace flexspline::estimators {
 

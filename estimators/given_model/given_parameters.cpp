@@ -1,4 +1,4 @@
-#include "given_model/given_parameters.hpp"
+#include "flexspline/estimators/given_parameters.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "flexspline/core/signals.hpp"
-#include "given_model/given_parameters.hpp"
+#include "flexspline/estimators/given_parameters.hpp"
 #include "solvers/least_squares.hpp"
 
 namespace flexspline::estimators {

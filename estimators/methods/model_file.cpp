@@ -3,6 +3,7 @@
 #include "flexspline/estimators/method.hpp"
 #include "given_model/given_estimate.hpp"
 #include "given_model/given_search.hpp"
+#include "given_model/held_fit.hpp"
 
 namespace flexspline::estimators {
 
@@ -48,6 +49,13 @@ Result<Estimate> fit(const FitProblem& problem) {
   if (!linear) return tl::unexpected(linear.error());
   Estimate estimate = given_estimate(found->residuals, found->solution, *linear, *records);
   if (!found->says.empty()) estimate.notes.push_back(found->says);
+  if (const double held = number(problem, method, "profile_parameter"); held > 0.0) {
+    auto away =
+        held_fit(*problem.model, estimate, *records, settings_of(problem),
+                 {static_cast<std::size_t>(held) - 1, number(problem, method, "profile_distance")});
+    if (!away) return away;
+    estimate = *std::move(away);
+  }
   estimate.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return estimate;
@@ -90,6 +98,17 @@ MethodRow describe_model_file() {
                 .lower = 0,
                 .upper = 1e6},
                {.name = "seed", .meaning = "of those starts", .value = 1, .lower = 0, .upper = 1e9},
+               {.name = "profile_parameter",
+                .meaning = "number, from 1, of the fitted parameter that is then held away from "
+                           "its estimate while all others are fitted again; 0: none",
+                .value = 0,
+                .lower = 0,
+                .upper = 1e6},
+               {.name = "profile_distance",
+                .meaning = "how far away, in its standard deviations",
+                .value = 0,
+                .lower = -1e3,
+                .upper = 1e3},
                {.name = "iterations",
                 .meaning = "most iterations of the solver",
                 .value = 100,

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "flexspline/estimators/given_parameters.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
-#include "given_model/given_parameters.hpp"
 #include "servo/servo_session.hpp"
 #include "servo/servo_solve.hpp"
 #include "servo/servo_start.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "flexspline/core/error.hpp"
+#include "flexspline/estimators/given_parameters.hpp"
 #include "flexspline/estimators/ode_fit.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
-#include "given_model/given_parameters.hpp"
 
 namespace flexspline::estimators {
 

@@ -1,0 +1,142 @@
+#include "answers/profile_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "answers/kind_parts.hpp"
+#include "answers/profile_likelihood.hpp"
+#include "flexspline/studies/study_rows.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::size_t kMostPanels = 12;
+
+/// The fits of one estimator on one input.
+struct Fits {
+  double cost = std::nan("");
+  double freedom = 0.0;  ///< residuals less parameters
+  std::vector<CaseRow::Parameter> parameters;
+  std::map<std::string, std::vector<HeldFit>> held;  ///< rise: the cost, as yet
+};
+
+bool is_free(const EstimatorConfig& estimator) { return estimator.id.ends_with(kFreeFit); }
+
+void enter(const CasePlan& one, const CaseRow& row, Fits& fits) {
+  if (is_free(*one.estimator)) {
+    fits.cost = row.number("cost");
+    fits.freedom = residuals_of(one, row) - row.number("parameters");
+    fits.parameters = row.parameters;
+    return;
+  }
+  const CaseRow::Parameter& held = row.parameters.back();
+  fits.held[held.name].push_back({held.value, row.number("cost")});
+}
+
+std::optional<ProfileLikelihood> profile_of(const Fits& fits, const CaseRow::Parameter& parameter,
+                                            bool& below) {
+  const auto held = fits.held.find(parameter.name);
+  if (held == fits.held.end() || !(fits.cost > 0.0) || !(fits.freedom > 0.0)) return std::nullopt;
+  ProfileInput input{parameter.value, parameter.std, held->second};
+  for (HeldFit& one : input.held) {
+    one.rise = fits.freedom * (one.rise / fits.cost - 1.0);
+    below = below || one.rise < -1e-3 * kProfileRise;
+  }
+  std::erase_if(input.held, [](const HeldFit& one) { return std::isnan(one.rise); });
+  return ProfileLikelihood(input);
+}
+
+AnswerPanel panel_of(const std::string& title, const CaseRow::Parameter& parameter,
+                     const ProfileLikelihood& profile) {
+  AnswerPanel panel;
+  panel.title = title;
+  panel.x_label = parameter.name + (parameter.unit.empty() ? "" : " / " + parameter.unit);
+  panel.y_label = "rise of -2 ln L";
+  constexpr int kPoints = 60;
+  const auto beyond = [&](std::optional<double> crossing, double end) {
+    if (!crossing) return end;
+    const double far = parameter.value + 1.6 * (*crossing - parameter.value);
+    return *crossing < parameter.value ? std::max(end, far) : std::min(end, far);
+  };
+  const double from = beyond(profile.lower(), profile.first());
+  const double to = beyond(profile.upper(), profile.last());
+  AnswerSeries own{"profile", "line", {}, {}};
+  AnswerSeries parabola{"its covariance's parabola", "line", {}, {}};
+  AnswerSeries limit{"95 %", "line", {from, to}, {kProfileRise, kProfileRise}};
+  for (int k = 0; k <= kPoints; ++k) {
+    const double x = from + (to - from) * k / kPoints;
+    own.x.push_back(x);
+    own.y.push_back(profile.rise(x));
+    const double z = (x - parameter.value) / parameter.std;
+    if (!(z * z < 4.0 * kProfileRise)) continue;
+    parabola.x.push_back(x);
+    parabola.y.push_back(z * z);
+  }
+  panel.series = {std::move(own), std::move(parabola), std::move(limit)};
+  return panel;
+}
+
+}  // namespace
+
+KindAnswer answer_profiles(const StudyRows& rows) {
+  std::map<std::string, Fits> found;
+  rows.each([&](const CasePlan& one, const CaseRow& row) {
+    if (one.replicate > 0) return;
+    enter(one, row, found[fmt::format("{}, {}", one.input->id, one.estimator->written_id())]);
+  });
+  KindAnswer answer;
+  AnswerFigure figure{"profile",
+                      "Profile likelihoods",
+                      "Rise of -2 ln L with one parameter held and all others fitted. An interval "
+                      "is where it stays below the line; a profile that stays below it is no "
+                      "evidence for either side.",
+                      "",
+                      {}};
+  AnswerTable table{"profile",
+                    "95 % intervals by profile and by covariance; \"none\": the profile stays "
+                    "below 3.84 up to the last held value. Widening: over independent noise",
+                    {"case", "parameter", "unit", "estimate", "profile from", "profile to",
+                     "covariance from", "covariance to", "widening"},
+                    {}};
+  for (const auto& [name, fits] : found) {
+    std::vector<std::string> open;
+    std::size_t profiled = 0;
+    bool below = false;
+    for (const CaseRow::Parameter& parameter : fits.parameters) {
+      const auto profile = profile_of(fits, parameter, below);
+      if (!profile) continue;
+      ++profiled;
+      const auto edge = [](std::optional<double> at) -> std::variant<std::string, double> {
+        return at ? std::variant<std::string, double>(*at) : "none";
+      };
+      table.rows.push_back({name, parameter.name, parameter.unit, parameter.value,
+                            edge(profile->lower()), edge(profile->upper()),
+                            parameter.value - 1.96 * parameter.std,
+                            parameter.value + 1.96 * parameter.std, profile->widening()});
+      if (!profile->lower() || !profile->upper()) open.push_back(parameter.name);
+      if (figure.panels.size() < kMostPanels) {
+        figure.panels.push_back(panel_of(name, parameter, *profile));
+      }
+    }
+    if (profiled == 0) continue;
+    answer.says +=
+        fmt::format("{}{}: {} of {} parameters are bounded on both sides",
+                    answer.says.empty() ? "" : "; ", name, profiled - open.size(), profiled);
+    if (!open.empty()) answer.says += fmt::format(", not {}", fmt::join(open, ", "));
+    if (below) {
+      answer.notes.push_back(fmt::format(
+          "{}: with a parameter held the cost is below that of the free fit, which is not the "
+          "minimum then: give it more starts.",
+          name));
+    }
+  }
+  answer.says += answer.says.empty() ? "No fit of all parameters gave a result." : ".";
+  answer.figures.push_back(std::move(figure));
+  answer.tables.push_back(std::move(table));
+  return answer;
+}
+
+}  // namespace flexspline::studies
