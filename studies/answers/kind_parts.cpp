@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -76,6 +77,37 @@ AnswerTable table_of(const std::string& id, const std::string& caption, const Ga
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+AnswerPanel loop_cells(const std::string& title, const std::vector<Loop>& loops,
+                       const std::vector<double>& values) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::set<double> amplitudes;
+  std::set<double> frequencies;
+  for (const Loop& loop : loops) {
+    amplitudes.insert(loop.amplitude);
+    frequencies.insert(loop.frequency_hz);
+  }
+  AnswerPanel panel;
+  panel.title = title;
+  panel.x_label = "frequency / Hz";
+  panel.y_label = "amplitude / deg";
+  for (const double f : frequencies) panel.x_names.push_back(fmt::format("{:g}", f));
+  for (const double a : amplitudes) panel.y_names.push_back(fmt::format("{:.3g}", kDegrees * a));
+  panel.cells.assign(amplitudes.size(), std::vector<double>(frequencies.size(), kNaN));
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    const auto a = std::distance(amplitudes.begin(), amplitudes.find(loops[k].amplitude));
+    const auto f = std::distance(frequencies.begin(), frequencies.find(loops[k].frequency_hz));
+    panel.cells[static_cast<std::size_t>(a)][static_cast<std::size_t>(f)] = values[k];
+  }
+  return panel;
+}
+
+double residuals_of(const CasePlan& one, const CaseRow& row) {
+  const auto& given = one.estimator->options.numbers;
+  const auto most = given.find("samples");
+  return std::min(row.number("samples"), static_cast<double>(one.train.size()) *
+                                             (most == given.end() ? 3000.0 : most->second));
 }
 
 std::string extremes_sentence(const Gathered& gathered, const std::string& axis) {

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "flexspline/studies/answer.hpp"
-#include "flexspline/studies/study_config.hpp"
+#include "flexspline/studies/case_row.hpp"
+#include "flexspline/studies/plan.hpp"
 
 namespace flexspline::studies {
 
@@ -26,6 +27,13 @@ AnswerPanel lines_of(const Gathered& gathered, const std::string& x_label,
 /// The same as a table: a row a place, a column a line.
 AnswerTable table_of(const std::string& id, const std::string& caption, const Gathered& gathered,
                      const std::string& x_name);
+
+/// A number for every loop, over frequency and amplitude; NaN: no cell.
+AnswerPanel loop_cells(const std::string& title, const std::vector<Loop>& loops,
+                       const std::vector<double>& values);
+
+/// How many residuals a fit of a case has: its samples, or as many as its method takes at most.
+double residuals_of(const CasePlan& one, const CaseRow& row);
 
 /// Where along the axis the median of the best line is least and largest, in a sentence.
 std::string extremes_sentence(const Gathered& gathered, const std::string& axis);

@@ -2,12 +2,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include <fmt/format.h>
 
+#include "answers/causes_apart.hpp"
+#include "answers/kind_parts.hpp"
 #include "answers/kind_tables.hpp"
 #include "comparison/middle_of.hpp"
+#include "flexspline/core/nearest_name.hpp"
 #include "flexspline/studies/kind.hpp"
 #include "flexspline/studies/study_rows.hpp"
 
@@ -21,12 +23,33 @@ double speed_of(const Loop& loop) {
   return 2.0 * std::numbers::pi * loop.frequency_hz * loop.amplitude;
 }
 
+/// The two estimators whose models are rival causes; none where it is not asked.
+void read_causes(TomlSection& own, StudyConfig& study) {
+  if (!own.has("tell_apart")) return;
+  const std::vector<std::string> causes = own.texts("tell_apart");
+  std::vector<std::string_view> known;
+  for (const EstimatorConfig& one : study.estimators) {
+    if (one.model) known.emplace_back(one.id);
+  }
+  if (causes.size() != 2 || causes[0] == causes[1]) {
+    return own.refuse("tell_apart", "two causes are told apart, no more and no less",
+                      "name two estimators with a model, tell_apart = [\"a\", \"b\"]");
+  }
+  for (const std::string& id : causes) {
+    if (std::ranges::find(known, id) != known.end()) continue;
+    own.refuse("tell_apart", fmt::format("there is no estimator '{}' with a model", id),
+               suggestion(id, known));
+  }
+  study.settings.names["tell_apart"] = causes;
+}
+
 /// Estimators on what is recorded already, and on that with one candidate more.
 void read(TomlSection& own, StudyConfig& study) {
   need_truths(own, study);
   const Grid* candidates = named_grid(own, "candidates", study);
   const Grid* base = named_grid(own, "recorded", study);
   const auto speed = own.quantity("largest_speed", Dimension::angular_velocity, 0.0);
+  read_causes(own, study);
   if (candidates == nullptr || base == nullptr) return;
   const std::vector<Loop> recorded = base->loops;
   std::vector<Loop> added;
@@ -69,11 +92,6 @@ const std::pair<const char*, const char*> kFunctions[] = {
 using Widths =
     std::map<std::string, std::map<std::string, std::map<std::string, std::vector<double>>>>;
 
-std::vector<double> sorted_once(std::vector<double> values) {
-  const std::set<double> once(values.begin(), values.end());
-  return {once.begin(), once.end()};
-}
-
 /// log2 of how much narrower a band becomes: bits a candidate is expected to tell of a function.
 double bits(const std::map<std::string, std::vector<double>>& by_suffix, const std::string& with) {
   const auto base = by_suffix.find(std::string(kBase));
@@ -84,12 +102,21 @@ double bits(const std::map<std::string, std::vector<double>>& by_suffix, const s
   return std::log2(middle_of(base->second) / middle_of(other->second));
 }
 
-KindAnswer answer(const StudyRows& rows) {
-  const StudyConfig& study = rows.study();
+std::vector<Loop> candidates_of(const StudyConfig& study) {
   const auto& amplitude = study.settings.lists.at("amplitude");
   const auto& frequency = study.settings.lists.at("frequency");
-  const auto amplitudes = sorted_once(amplitude);
-  const auto frequencies = sorted_once(frequency);
+  std::vector<Loop> loops;
+  for (std::size_t k = 0; k < amplitude.size(); ++k) loops.push_back({amplitude[k], frequency[k]});
+  return loops;
+}
+
+KindAnswer answer(const StudyRows& rows) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const std::vector<Loop> candidates = candidates_of(rows.study());
+  std::vector<std::string> suffixes;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    suffixes.push_back(fmt::format("{}{}", kWith, k + 1));
+  }
   Widths widths;
   rows.each([&](const CasePlan& one, const CaseRow& row) {
     const std::string suffix = one.estimator->id.substr(one.estimator->written_id().size() + 1);
@@ -113,54 +140,48 @@ KindAnswer answer(const StudyRows& rows) {
                     {}};
   for (const auto& [estimator, by_function] : widths) {
     for (const auto& [function, by_suffix] : by_function) {
-      AnswerPanel panel;
-      panel.title = function + ", " + estimator;
-      panel.x_label = "frequency / Hz";
-      panel.y_label = "amplitude / deg";
-      for (const double f : frequencies) panel.x_names.push_back(fmt::format("{:g}", f));
-      const double degrees = 180.0 / std::numbers::pi;
-      for (const double a : amplitudes) panel.y_names.push_back(fmt::format("{:.3g}", degrees * a));
-      panel.cells.assign(
-          amplitudes.size(),
-          std::vector<double>(frequencies.size(), std::numeric_limits<double>::quiet_NaN()));
-      std::size_t best = amplitude.size();
-      double most = -std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < amplitude.size(); ++k) {
-        const std::string with = fmt::format("{}{}", kWith, k + 1);
-        const double gain = bits(by_suffix, with);
-        if (std::isnan(gain)) continue;
-        const auto a = std::ranges::lower_bound(amplitudes, amplitude[k]) - amplitudes.begin();
-        const auto f = std::ranges::lower_bound(frequencies, frequency[k]) - frequencies.begin();
-        panel.cells[static_cast<std::size_t>(a)][static_cast<std::size_t>(f)] = gain;
-        table.rows.push_back({estimator, function, degrees * amplitude[k], frequency[k], gain,
-                              middle_of(by_suffix.at(with))});
-        if (gain > most) most = gain, best = k;
+      std::vector<double> gains;
+      std::size_t best = candidates.size();
+      for (std::size_t k = 0; k < candidates.size(); ++k) {
+        gains.push_back(bits(by_suffix, suffixes[k]));
+        if (std::isnan(gains[k])) continue;
+        table.rows.push_back({estimator, function, kDegrees * candidates[k].amplitude,
+                              candidates[k].frequency_hz, gains[k],
+                              middle_of(by_suffix.at(suffixes[k]))});
+        if (best == candidates.size() || gains[k] > gains[best]) best = k;
       }
-      if (best == amplitude.size()) continue;
-      figure.panels.push_back(std::move(panel));
+      if (best == candidates.size()) continue;
+      figure.panels.push_back(loop_cells(function + ", " + estimator, candidates, gains));
       answer.says += fmt::format("{}for {} ({}) record {:.3g} deg at {:g} Hz: {:.2g} bits",
                                  answer.says.empty() ? "Next, " : "; ", function, estimator,
-                                 degrees * amplitude[best], frequency[best], most);
+                                 kDegrees * candidates[best].amplitude,
+                                 candidates[best].frequency_hz, gains[best]);
     }
+  }
+  const auto causes = rows.study().settings.names.find("tell_apart");
+  if (causes != rows.study().settings.names.end()) {
+    add_causes_apart(rows, causes->second, std::string(kBase), suffixes, candidates, answer);
   }
   answer.says = answer.says.empty()
                     ? "No candidate can be judged: what is recorded identifies no function."
                     : answer.says + ".";
-  answer.figures.push_back(std::move(figure));
-  answer.tables.push_back(std::move(table));
+  if (!figure.panels.empty()) answer.figures.push_back(std::move(figure));
+  if (!table.rows.empty()) answer.tables.push_back(std::move(table));
   return answer;
 }
 
 }  // namespace
 
 KindRow describe_excitation() {
-  return {.id = "excitation",
-          .summary = "what one recording more would tell of f, g^-1 and h, within a rig's limits",
-          .cases = "inputs x estimators x (what is recorded, and with each candidate) x replicates",
-          .question = "Which recording should be taken next?",
-          .read = read,
-          .answer = answer,
-          .chooses_training = true};
+  return {
+      .id = "excitation",
+      .summary =
+          "what one recording more would tell of f, g^-1 and h, or of which of two causes it is",
+      .cases = "inputs x estimators x (what is recorded, and with each candidate) x replicates",
+      .question = "Which recording should be taken next?",
+      .read = read,
+      .answer = answer,
+      .chooses_training = true};
 }
 
 }  // namespace flexspline::studies

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "answers/kind_parts.hpp"
 #include "answers/kind_tables.hpp"
 #include "comparison/middle_of.hpp"
 #include "flexspline/studies/kind.hpp"
@@ -99,11 +100,7 @@ Rung rung_of(const CasePlan& one, const CaseRow& row) {
     if (recording.role == "train") train.push_back(recording.error_percent);
   }
   rung.train = middle_of(train);
-  const auto& given = one.estimator->options.numbers;
-  const auto most = given.find("samples");
-  const double samples =
-      std::min(row.number("samples"), static_cast<double>(one.train.size()) *
-                                          (most == given.end() ? 3000.0 : most->second));
+  const double samples = residuals_of(one, row);
   const double fit = samples * std::log(2.0 * row.number("cost") / samples);
   rung.aic = fit + 2.0 * rung.parameters;
   rung.bic = fit + std::log(samples) * rung.parameters;

@@ -14,6 +14,7 @@
 #include "flexspline/studies/results.hpp"
 #include "flexspline/studies/run.hpp"
 #include "flexspline/studies/verify.hpp"
+#include "source_dir.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {
@@ -152,6 +153,35 @@ TEST_F(Kinds, ExcitationOfTheSameAgainTellsLittle) {
   for (const auto& row : rows) EXPECT_LT(number(row[3]), 0.01) << "beyond the rig's speed";
 }
 
+// The same loop once more tells as much as the first one did. Of a viscous gear, slip can imitate
+// the losses at one rate and not at two.
+TEST_F(Kinds, ExcitationTellsCausesApartByAnotherRate) {
+  const std::string models = std::string(FLEXSPLINE_SOURCE_DIR) + "/studies/models/locked-gear-";
+  const auto cause = [&](const std::string& id) {
+    return "[[estimator]]\nid = \"" + id + "\"\nmethod = \"model_file\"\nmodel = \"" + models + id +
+           ".toml\"\n";
+  };
+  const KindAnswer answer = answer_of(
+      "kind = \"excitation\"\nreplicates = 4\n[excitation]\nrecorded = \"first\"\ncandidates = "
+      "\"more\"\ntell_apart = [\"slip\", \"viscosity\"]\n[bench]\ntorque_noise_white = { value = "
+      "2, "
+      "unit = \"%\" }\ncycles = 3\nsamples_per_cycle = 100\n"
+      "[[grid]]\nid = \"first\"\nloops = { values = [[0.2, 0.005]], units = [\"deg\", \"Hz\"] }\n"
+      "[[grid]]\nid = \"more\"\nloops = { values = [[0.2, 0.00501], [0.2, 0.001]], units = "
+      "[\"deg\", \"Hz\"] }\n" +
+      kUnity + cause("slip") + cause("viscosity"));
+  const auto table = std::ranges::find(answer.tables, "causes-apart", &AnswerTable::id);
+  ASSERT_NE(table, answer.tables.end());
+  ASSERT_EQ(table->rows.size(), 2U);
+  const double alone = number(table->rows[0][3]);
+  const double again = number(table->rows[0][4]);
+  const double another_rate = number(table->rows[1][4]);
+  EXPECT_LT(alone, -3.84) << "for viscosity";
+  EXPECT_NEAR(again / alone, 2.0, 0.4);
+  EXPECT_LT(another_rate, 1.3 * again);
+  EXPECT_EQ(word(table->rows[1][5]), "viscosity");
+}
+
 // The share is the number of fits whose band holds the truth, counted again from the artefacts.
 TEST_F(Kinds, CoverageCountsBandsThatHoldTheTruth) {
   const KindAnswer answer = answer_of(
@@ -273,6 +303,39 @@ TEST_F(Kinds, ModelLadderClimbsToTheEffectThatIsThere) {
   EXPECT_TRUE(found);
 }
 
+// Residuals r = offset + …, all else orthogonal to a constant over whole periods: held away from
+// its estimate the offset costs n/2 (value - estimate)^2, and the profile is the covariance's
+// parabola.
+TEST_F(Kinds, ProfileOfALinearModelIsTheParabolaOfItsCovariance) {
+  write_set("set", 0.7);
+  const KindAnswer answer = answer_of(model_study(
+      "profile", "[profile]\npoints = 3\nparameters = [\"torque_sensor_offset.offset\"]\n"));
+  EXPECT_EQ(plan_->size(), 1U + 6U);
+  const auto store = CaseStore::open(folder_.path() / "out");
+  ASSERT_TRUE(store);
+  const auto estimate = [&](std::size_t number) {
+    return nlohmann::json::parse(store->read(plan_->at(number).key)->artefact)["estimate"];
+  };
+  const auto free = estimate(0);
+  const auto offset = [](const nlohmann::json& of) {
+    for (const auto& one : of["parameters"]) {
+      if (one["name"] == "torque_sensor_offset.offset") return one["value"].get<double>();
+    }
+    return std::nan("");
+  };
+  for (std::size_t k = 1; k <= 6; ++k) {
+    const auto held = estimate(k);
+    const double away = offset(held) - offset(free);
+    const double law = 0.5 * 400.0 * away * away;
+    EXPECT_NEAR(held["cost"].get<double>() - free["cost"].get<double>(), law, 0.02 * law) << k;
+  }
+  const auto& row = answer.tables[0].rows.at(0);
+  EXPECT_EQ(word(row[1]), "torque_sensor_offset.offset");
+  const double half = number(row[7]) - number(row[3]);
+  EXPECT_NEAR(number(row[5]) - number(row[3]), half, 0.02 * half);
+  EXPECT_NEAR(number(row[3]) - number(row[4]), half, 0.02 * half);
+}
+
 // By one worker or two, by what the file or the lock says: bitwise.
 TEST_F(Kinds, AStudyOfAKindIsReadBackFromItsLockAndVerifiesBitwise) {
   answer_of("kind = \"generalisation\"\n[generalisation]\nlargest_set = 1\n" + kQuietBench +
@@ -307,6 +370,13 @@ TEST_F(Kinds, WhatAKindCannotDoIsRefused) {
   refused("kind = \"coverage\"\n" + kGrid + kInput + kEstimator, "replicates");
   refused("kind = \"robustness\"\n" + kGrid + kInput + kEstimator, "no disturbance");
   refused("kind = \"multistart\"\n" + kGrid + kInput + kEstimator, "no model file");
+  refused(
+      "kind = \"excitation\"\n[excitation]\nrecorded = \"point\"\ncandidates = \"point\"\n"
+      "tell_apart = [\"paper\"]\n" +
+          kGrid + kUnity + kEstimator,
+      "two causes");
+  refused("kind = \"profile\"\n" + kGrid + kInput + kEstimator, "no model file");
+  refused("kind = \"trial\"\n" + kGrid + kInput + kEstimator, "flexspline-trial/1");
   refused("kind = \"generalisation\"\n[generalisation]\ngrid = \"pont\"\n" + kGrid + kInput +
               kEstimator,
           "did you mean 'point'");
