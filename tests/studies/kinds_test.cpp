@@ -371,9 +371,9 @@ TEST_F(Kinds, WhatAKindCannotDoIsRefused) {
   refused("kind = \"robustness\"\n" + kGrid + kInput + kEstimator, "no disturbance");
   refused("kind = \"multistart\"\n" + kGrid + kInput + kEstimator, "no model file");
   refused(
-      "kind = \"excitation\"\n[excitation]\nrecorded = \"point\"\ncandidates = \"point\"\n"
+      "kind = \"excitation\"\n[excitation]\nrecorded = \"point\"\ncandidates = \"loops\"\n"
       "tell_apart = [\"paper\"]\n" +
-          kGrid + kUnity + kEstimator,
+          kGrid + kLoops + kUnity + kEstimator,
       "two causes");
   refused("kind = \"profile\"\n" + kGrid + kInput + kEstimator, "no model file");
   refused("kind = \"trial\"\n" + kGrid + kInput + kEstimator, "flexspline-trial/1");
