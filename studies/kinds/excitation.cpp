@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/causes_apart.hpp"
+#include "answers/cause_discrimination.hpp"
 #include "answers/kind_parts.hpp"
 #include "answers/kind_tables.hpp"
 #include "comparison/middle_of.hpp"
@@ -23,24 +23,24 @@ double speed_of(const Loop& loop) {
   return 2.0 * std::numbers::pi * loop.frequency_hz * loop.amplitude;
 }
 
-/// The two estimators whose models are rival causes; none where it is not asked.
+/// The two estimators whose models are alternative causes; none where it is not asked.
 void read_causes(TomlSection& own, StudyConfig& study) {
-  if (!own.has("tell_apart")) return;
-  const std::vector<std::string> causes = own.texts("tell_apart");
+  if (!own.has("discriminate")) return;
+  const std::vector<std::string> causes = own.texts("discriminate");
   std::vector<std::string_view> known;
   for (const EstimatorConfig& one : study.estimators) {
     if (one.model) known.emplace_back(one.id);
   }
   if (causes.size() != 2 || causes[0] == causes[1]) {
-    return own.refuse("tell_apart", "two causes are told apart, no more and no less",
-                      "name two estimators with a model, tell_apart = [\"a\", \"b\"]");
+    return own.refuse("discriminate", "two causes are compared, no more and no less",
+                      "name two estimators with a model, discriminate = [\"a\", \"b\"]");
   }
   for (const std::string& id : causes) {
     if (std::ranges::find(known, id) != known.end()) continue;
-    own.refuse("tell_apart", fmt::format("there is no estimator '{}' with a model", id),
+    own.refuse("discriminate", fmt::format("there is no estimator '{}' with a model", id),
                suggestion(id, known));
   }
-  study.settings.names["tell_apart"] = causes;
+  study.settings.names["discriminate"] = causes;
 }
 
 /// Estimators on what is recorded already, and on that with one candidate more.
@@ -158,9 +158,9 @@ KindAnswer answer(const StudyRows& rows) {
                                  candidates[best].frequency_hz, gains[best]);
     }
   }
-  const auto causes = rows.study().settings.names.find("tell_apart");
+  const auto causes = rows.study().settings.names.find("discriminate");
   if (causes != rows.study().settings.names.end()) {
-    add_causes_apart(rows, causes->second, std::string(kBase), suffixes, candidates, answer);
+    add_discrimination(rows, causes->second, std::string(kBase), suffixes, candidates, answer);
   }
   answer.says = answer.says.empty()
                     ? "No candidate can be judged: what is recorded identifies no function."

@@ -155,7 +155,7 @@ TEST_F(Kinds, ExcitationOfTheSameAgainTellsLittle) {
 
 // The same loop once more tells as much as the first one did. Of a viscous gear, slip can imitate
 // the losses at one rate and not at two.
-TEST_F(Kinds, ExcitationTellsCausesApartByAnotherRate) {
+TEST_F(Kinds, ExcitationSeparatesCausesByAnotherRate) {
   const std::string models = std::string(FLEXSPLINE_SOURCE_DIR) + "/studies/models/locked-gear-";
   const auto cause = [&](const std::string& id) {
     return "[[estimator]]\nid = \"" + id + "\"\nmethod = \"model_file\"\nmodel = \"" + models + id +
@@ -163,14 +163,14 @@ TEST_F(Kinds, ExcitationTellsCausesApartByAnotherRate) {
   };
   const KindAnswer answer = answer_of(
       "kind = \"excitation\"\nreplicates = 4\n[excitation]\nrecorded = \"first\"\ncandidates = "
-      "\"more\"\ntell_apart = [\"slip\", \"viscosity\"]\n[bench]\ntorque_noise_white = { value = "
+      "\"more\"\ndiscriminate = [\"slip\", \"viscosity\"]\n[bench]\ntorque_noise_white = { value = "
       "2, "
       "unit = \"%\" }\ncycles = 3\nsamples_per_cycle = 100\n"
       "[[grid]]\nid = \"first\"\nloops = { values = [[0.2, 0.005]], units = [\"deg\", \"Hz\"] }\n"
       "[[grid]]\nid = \"more\"\nloops = { values = [[0.2, 0.00501], [0.2, 0.001]], units = "
       "[\"deg\", \"Hz\"] }\n" +
       kUnity + cause("slip") + cause("viscosity"));
-  const auto table = std::ranges::find(answer.tables, "causes-apart", &AnswerTable::id);
+  const auto table = std::ranges::find(answer.tables, "discrimination", &AnswerTable::id);
   ASSERT_NE(table, answer.tables.end());
   ASSERT_EQ(table->rows.size(), 2U);
   const double alone = number(table->rows[0][3]);
@@ -372,7 +372,7 @@ TEST_F(Kinds, WhatAKindCannotDoIsRefused) {
   refused("kind = \"multistart\"\n" + kGrid + kInput + kEstimator, "no model file");
   refused(
       "kind = \"excitation\"\n[excitation]\nrecorded = \"point\"\ncandidates = \"loops\"\n"
-      "tell_apart = [\"paper\"]\n" +
+      "discriminate = [\"paper\"]\n" +
           kGrid + kLoops + kUnity + kEstimator,
       "two causes");
   refused("kind = \"profile\"\n" + kGrid + kInput + kEstimator, "no model file");

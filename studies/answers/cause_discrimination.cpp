@@ -1,4 +1,4 @@
-#include "answers/causes_apart.hpp"
+#include "answers/cause_discrimination.hpp"
 
 #include <cmath>
 #include <limits>
@@ -48,19 +48,19 @@ double discrimination(const OfInput& costs, const std::string& suffix) {
 
 }  // namespace
 
-void add_causes_apart(const StudyRows& rows, const std::vector<std::string>& causes,
-                      const std::string& recorded, const std::vector<std::string>& suffixes,
-                      const std::vector<Loop>& candidates, KindAnswer& answer) {
+void add_discrimination(const StudyRows& rows, const std::vector<std::string>& causes,
+                        const std::string& recorded, const std::vector<std::string>& suffixes,
+                        const std::vector<Loop>& candidates, KindAnswer& answer) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   AnswerFigure figure{
-      "causes-apart",
-      fmt::format("Telling {} from {}", causes[0], causes[1]),
+      "discrimination",
+      fmt::format("Discrimination between {} and {}", causes[0], causes[1]),
       fmt::format("Difference of -2 ln L with the candidate: positive for {}, negative for {}.",
                   causes[0], causes[1]),
       "",
       {}};
   AnswerTable table{
-      "causes-apart",
+      "discrimination",
       "Difference of -2 ln L between the two causes, recorded alone and with one "
       "recording more",
       {"input", "amplitude / deg", "frequency / Hz", "recorded alone", "with it", "for"},
@@ -79,9 +79,9 @@ void add_causes_apart(const StudyRows& rows, const std::vector<std::string>& cau
     if (best == candidates.size()) continue;
     figure.panels.push_back(loop_cells(input, candidates, with));
     answer.says += fmt::format(
-        "{}if the gear is like {}, {:.3g} deg at {:g} Hz tells {} from {}: {:.3g} for {}, against "
-        "{:.3g} by what is recorded",
-        answer.says.empty() ? "To tell causes apart: " : "; ", input,
+        "{}if the gear is like {}, {:.3g} deg at {:g} Hz separates {} from {}: {:.3g} for {}, "
+        "against {:.3g} by what is recorded",
+        answer.says.empty() ? "Of the two causes: " : "; ", input,
         kDegrees * candidates[best].amplitude, candidates[best].frequency_hz, causes[0], causes[1],
         std::abs(with[best]), causes[with[best] > 0.0 ? 0 : 1], std::abs(alone));
   }
