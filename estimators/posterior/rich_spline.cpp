@@ -10,6 +10,11 @@ constexpr double kEven = 0.6;  // share of the coordinate that is even; the rest
 constexpr int kMostSteps = 50;
 constexpr double kClose = 1e-12;
 
+double weighed(const std::array<double, 4>& weights,
+               const Eigen::Ref<const Eigen::VectorXd>& coefficients, Eigen::Index first) {
+  return coefficients.segment<4>(first).dot(Eigen::Map<const Eigen::Vector4d>(weights.data()));
+}
+
 }  // namespace
 
 RichSpline::RichSpline(double from, double to, std::size_t intervals, double fine)
@@ -21,11 +26,7 @@ RichSpline::RichSpline(double from, double to, std::size_t intervals, double fin
       to_(coordinate(to)),
       width_((to_ - from_) / static_cast<double>(intervals)),
       basis_(from_, to_, intervals),
-      at_zero_(Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(basis_.size()))) {
-  Eigen::RowVectorXd row(size());
-  value(0.0, row);
-  at_zero_ = row;
-}
+      zero_(at(0.0)) {}
 
 double RichSpline::coordinate(double x) const {
   const double even = x / scale_;
@@ -63,23 +64,48 @@ double RichSpline::beyond(double x) const {
   return std::abs(x - std::clamp(x, low_, high_)) / (width_ * scale_);
 }
 
-void RichSpline::value(double x, Eigen::Ref<Eigen::RowVectorXd> row) const {
+RichSpline::Local RichSpline::at(double x) const {
   const double inside = std::clamp(x, low_, high_);
   const double out = (x - inside) * coordinate_slope(inside);
-  const auto local = basis_.at(coordinate(inside));
-  row = -at_zero_;
+  const double rate = coordinate_slope(inside);
+  const auto basis = basis_.at(coordinate(inside));
+  Local local{static_cast<Eigen::Index>(basis.first), basis.value, basis.slope};
   for (std::size_t k = 0; k < 4; ++k) {
-    row[static_cast<Eigen::Index>(local.first + k)] += local.value[k] + out * local.slope[k];
+    local.value[k] += out * basis.slope[k];
+    local.slope[k] *= rate;
+  }
+  return local;
+}
+
+double RichSpline::value(const Local& at,
+                         const Eigen::Ref<const Eigen::VectorXd>& coefficients) const {
+  return weighed(at.value, coefficients, at.first) -
+         weighed(zero_.value, coefficients, zero_.first);
+}
+
+double RichSpline::slope(const Local& at, const Eigen::Ref<const Eigen::VectorXd>& coefficients) {
+  return weighed(at.slope, coefficients, at.first);
+}
+
+void RichSpline::add_value(const Local& at, double weight,
+                           Eigen::Ref<Eigen::RowVectorXd> row) const {
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    row[at.first + k] += weight * at.value[i];
+    row[zero_.first + k] -= weight * zero_.value[i];
   }
 }
 
-void RichSpline::slope(double x, Eigen::Ref<Eigen::RowVectorXd> row) const {
-  const double inside = std::clamp(x, low_, high_);
-  const auto local = basis_.at(coordinate(inside));
-  const double rate = coordinate_slope(inside);
+void RichSpline::value(double x, Eigen::Ref<Eigen::RowVectorXd> row) const {
   row.setZero();
+  add_value(at(x), 1.0, row);
+}
+
+void RichSpline::slope(double x, Eigen::Ref<Eigen::RowVectorXd> row) const {
+  row.setZero();
+  const Local local = at(x);
   for (std::size_t k = 0; k < 4; ++k) {
-    row[static_cast<Eigen::Index>(local.first + k)] = local.slope[k] * rate;
+    row[local.first + static_cast<Eigen::Index>(k)] = local.slope[k];
   }
 }
 

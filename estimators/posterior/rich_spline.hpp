@@ -15,7 +15,19 @@ class RichSpline {
   /// fine: x below which the coordinate is logarithmic; 0: even everywhere.
   RichSpline(double from, double to, std::size_t intervals, double fine);
 
+  /// Weights of coefficients first to first + 3 in the value, before the gauge, and in the slope.
+  struct Local {
+    Eigen::Index first = 0;
+    std::array<double, 4> value{}, slope{};
+  };
+
   Eigen::Index size() const { return static_cast<Eigen::Index>(basis_.size()); }
+  Local at(double x) const;
+  /// Of a spline with these coefficients.
+  double value(const Local& at, const Eigen::Ref<const Eigen::VectorXd>& coefficients) const;
+  static double slope(const Local& at, const Eigen::Ref<const Eigen::VectorXd>& coefficients);
+  /// Adds the weights of all coefficients in `weight` values.
+  void add_value(const Local& at, double weight, Eigen::Ref<Eigen::RowVectorXd> row) const;
   /// Weights of the coefficients in the value and the slope at x, straight on beyond the ends.
   void value(double x, Eigen::Ref<Eigen::RowVectorXd> row) const;
   void slope(double x, Eigen::Ref<Eigen::RowVectorXd> row) const;
@@ -33,7 +45,7 @@ class RichSpline {
 
   double low_, high_, fine_, scale_, from_, to_, width_;
   CubicBasis basis_;
-  Eigen::RowVectorXd at_zero_;
+  Local zero_;
 };
 
 }  // namespace flexspline::estimators

@@ -23,11 +23,12 @@ constexpr double kFirstOfH = 1.0;         // h bends where f and g^-1 leave it t
 constexpr double kFirstOfFreeH = 1e-4;    // or h bends first
 constexpr double kFurthest = 0.5;         // of ln h in one step
 constexpr int kSteps = 25;                // linearisations
-constexpr int kStepsOfMisfit = 4;         // after the noise was taken from a misfit
+constexpr int kStepsOfMisfit = 2;         // after the noise was taken from a misfit
 constexpr int kRounds = 3;                // of the precisions, each
 constexpr double kResolved = 2e-4;  // of the largest torque: less noise than the splines' own error
-constexpr double kMisses = 1.5;     // noises left by a law that is not looked at closely
+constexpr double kMisses = 1.15;    // noises that are left where a law misses something
 constexpr double kSettled = 0.05;   // standard deviations that a step may still move by
+constexpr double kGains = 0.01;     // of what is left, in a step that brings a misfit nearer
 constexpr double kRefuted = 4.0;    // standard deviations of a sum of squares
 
 constexpr int kFamilyOfH = 3;
@@ -87,15 +88,16 @@ RegressionRows whitened(const FoldedRecord& one, RegressionRows rows) {
     rows.target = rows.target.cwiseProduct(weight);
   }
   const WhiteningFilter filter(one.noise, one.time);
-  const auto n = static_cast<std::size_t>(rows.target.size());
-  for (auto column : rows.jacobian.colwise()) filter.whiten({column.data(), n});
-  filter.whiten({rows.target.data(), n});
+  filter.whiten(rows.jacobian);
+  filter.whiten({rows.target.data(), static_cast<std::size_t>(rows.target.size())});
   return rows;
 }
 
+using Jacobian = decltype(RegressionRows::jacobian);
+
 // Entries i >= j of J'J, row by row of J: most entries of a row in white noise are zero.
 template <class Each>
-void for_each_product(const Eigen::MatrixXd& jacobian, const Each& each) {
+void for_each_product(const Jacobian& jacobian, const Each& each) {
   std::vector<Eigen::Index> filled;
   for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
     filled.clear();
@@ -117,15 +119,15 @@ Normal normal_equations(const TorsionRegression& all, const std::vector<FoldedRe
     normal.whitened.push_back(whitened(records[r], normal.plain.back()));
     const auto& rows = normal.whitened.back();
     if (records[r].noise.share > 0.0) {
-      normal.information.selfadjointView<Eigen::Lower>().rankUpdate(rows.jacobian.transpose());
+      normal.information.selfadjointView<Eigen::Upper>().rankUpdate(rows.jacobian.transpose());
     } else {
       for_each_product(rows.jacobian, [&](Eigen::Index i, Eigen::Index j, double product) {
-        normal.information(i, j) += product;
+        normal.information(j, i) += product;  // along a column
       });
     }
     normal.gradient += rows.jacobian.transpose() * rows.target;
   }
-  normal.information = Eigen::MatrixXd(normal.information.selfadjointView<Eigen::Lower>());
+  normal.information = Eigen::MatrixXd(normal.information.selfadjointView<Eigen::Upper>());
   return normal;
 }
 
@@ -133,7 +135,7 @@ Eigen::VectorXd left_of(const RegressionRows& rows, const Eigen::VectorXd& c) {
   return rows.target - rows.jacobian * c;
 }
 
-double edf_of(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
+double edf_of(const Jacobian& jacobian, const Eigen::MatrixXd& covariance) {
   double sum = 0.0;
   for_each_product(jacobian, [&](Eigen::Index i, Eigen::Index j, double product) {
     sum += (i == j ? 1.0 : 2.0) * product * covariance(i, j);
@@ -225,17 +227,21 @@ double left_in_noises(const Normal& normal, const Eigen::VectorXd& c) {
 }
 
 // Linearises in turn at c and takes the law there, until neither moves by what the noise, or more
-// where more is left, lets them be known to. Returns the last equations.
+// where more is left, lets them be known to, or what is left is a misfit that stays. Returns the
+// last equations.
 Normal settle(TorsionPosterior& model, const TorsionRegression& all,
               const std::vector<FoldedRecord>& records, int steps, Eigen::VectorXd& c) {
+  double before = std::numeric_limits<double>::infinity();
   for (int step = 1;; ++step) {
     Normal normal = normal_equations(all, records, c);
     model.law = restricted_likelihood(normal.information, normal.gradient, model.groups, kRounds);
     const Eigen::VectorXd moved = model.law.mean - c;
     c += moved * shortened(model, moved);
     const double left = left_in_noises(normal, model.law.mean);
-    const bool enough = step >= (left > kMisses ? steps / 2 : steps);
-    if (enough || largest_move(model, moved) < kSettled * std::max(1.0, left)) return normal;
+    const bool stays = left > kMisses && left > (1.0 - kGains) * before;
+    before = left;
+    if (stays || step >= steps) return normal;
+    if (largest_move(model, moved) < kSettled * std::max(1.0, left)) return normal;
   }
 }
 

@@ -34,7 +34,7 @@ RegressionColumns regression_columns(const RichLaws& laws, const std::vector<Fol
 
 // What eq. (4) is at one row.
 struct TorsionRegression::Point {
-  Eigen::RowVectorXd f, g, h;  // values of the splines' functions
+  RichSpline::Local g;
   double log_h = 0.0;
   double speed = 0.0;    // phi'/h
   double damping = 0.0;  // slope of g^-1 there
@@ -50,7 +50,9 @@ TorsionRegression::TorsionRegression(const RichLaws& laws, const RegressionColum
   for (const auto& one : records) {
     motion_.push_back(next);
     next += errors_of(one);
+    auto& places = places_.emplace_back();
     for (std::size_t i = 0; i < one.time.size(); ++i) {
+      places.push_back({laws_.f.at(one.position[i]), laws_.log_h.at(one.position[i])});
       fastest = std::max(fastest, std::abs(one.velocity[i]));
       largest_acceleration_ = std::max(largest_acceleration_, std::abs(one.acceleration[i]));
     }
@@ -59,31 +61,21 @@ TorsionRegression::TorsionRegression(const RichLaws& laws, const RegressionColum
 }
 
 TorsionRegression::Point TorsionRegression::point(const FoldedRecord& one, std::size_t k,
+                                                  const Place& place,
                                                   const Eigen::VectorXd& c) const {
   Point p;
-  const double phi = one.position[k];
-  p.f.resize(laws_.f.size());
-  p.g.resize(laws_.g_inverse.size());
-  p.h.resize(laws_.log_h.size());
-  Eigen::RowVectorXd slope(laws_.log_h.size());
   double bend = 0.0;
   if (at_.h >= 0) {
-    const auto own = c.segment(at_.h, p.h.size());
-    laws_.log_h.value(phi, p.h);
-    laws_.log_h.slope(phi, slope);
-    p.log_h = p.h.dot(own);
-    bend = slope.dot(own);
+    const auto own = c.segment(at_.h, laws_.log_h.size());
+    p.log_h = laws_.log_h.value(place.h, own);
+    bend = RichSpline::slope(place.h, own);
   }
   const double modulation = std::exp(-p.log_h);
   p.speed = one.velocity[k] * modulation;
-  laws_.g_inverse.value(p.speed, p.g);
-  slope.resize(p.g.size());
-  laws_.g_inverse.slope(p.speed, slope);
-  p.damping = slope.dot(c.segment(at_.g, p.g.size()));
-  laws_.f.value(phi, p.f);
-  slope.resize(p.f.size());
-  laws_.f.slope(phi, slope);
-  p.along_motion = slope.dot(c.segment(at_.f, p.f.size())) - p.damping * p.speed * bend;
+  p.g = laws_.g_inverse.at(p.speed);
+  p.damping = RichSpline::slope(p.g, c.segment(at_.g, laws_.g_inverse.size()));
+  p.along_motion =
+      RichSpline::slope(place.f, c.segment(at_.f, laws_.f.size())) - p.damping * p.speed * bend;
   p.along_speed = p.damping * modulation;
   return p;
 }
@@ -103,21 +95,24 @@ void TorsionRegression::fill_motion(const FoldedRecord& one, std::size_t k, cons
 RegressionRows TorsionRegression::linearise(std::size_t r, const Eigen::VectorXd& c) const {
   const FoldedRecord& one = records_[r];
   const auto n = static_cast<Eigen::Index>(one.time.size());
-  RegressionRows rows{Eigen::MatrixXd::Zero(n, at_.size), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  RegressionRows rows{decltype(RegressionRows::jacobian)::Zero(n, at_.size), Eigen::VectorXd(n),
+                      Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const Point p = point(one, k, c);
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(at_.size);
+    const Place& place = places_[r][k];
+    const Point p = point(one, k, place, c);
+    auto row = rows.jacobian.row(i);
     row[at_.offset] = 1.0;
-    row.segment(at_.f, p.f.size()) = p.f;
-    row.segment(at_.g, p.g.size()) = p.g;
+    laws_.f.add_value(place.f, 1.0, row.segment(at_.f, laws_.f.size()));
+    laws_.g_inverse.add_value(p.g, 1.0, row.segment(at_.g, laws_.g_inverse.size()));
     row[at_.jump] = p.speed > 0.0 ? 1.0 : -1.0;
-    if (at_.h >= 0) row.segment(at_.h, p.h.size()) = -p.damping * p.speed * p.h;
+    if (at_.h >= 0) {
+      laws_.log_h.add_value(place.h, -p.damping * p.speed, row.segment(at_.h, laws_.log_h.size()));
+    }
     row[at_.inertia] = one.acceleration[k] / largest_acceleration_;
     row[at_.delay] =
         -time_scale_ * (p.along_motion * one.velocity[k] + p.along_speed * one.acceleration[k]);
     fill_motion(one, k, p, row.segment(motion_[r], errors_of(one)));
-    rows.jacobian.row(i) = row;
     rows.target[i] = one.torque[k] - p.damping * p.speed * p.log_h;
     rows.along_motion[i] = p.along_motion;
   }

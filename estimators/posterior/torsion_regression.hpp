@@ -25,7 +25,7 @@ RegressionColumns regression_columns(const RichLaws& laws, const std::vector<Fol
 
 /// Eq. (4) at the rows of a record: J, what J c stands for, Nm, and d tau/d phi, Nm/rad.
 struct RegressionRows {
-  Eigen::MatrixXd jacobian;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
   Eigen::VectorXd target;
   Eigen::VectorXd along_motion;
 };
@@ -41,15 +41,21 @@ class TorsionRegression {
   RegressionRows linearise(std::size_t r, const Eigen::VectorXd& c) const;
 
  private:
+  /// Where a row lies on the splines over the motion, whatever the coefficients are.
+  struct Place {
+    RichSpline::Local f, h;
+  };
   struct Point;
-  Point point(const FoldedRecord& one, std::size_t k, const Eigen::VectorXd& c) const;
+  Point point(const FoldedRecord& one, std::size_t k, const Place& place,
+              const Eigen::VectorXd& c) const;
   void fill_motion(const FoldedRecord& one, std::size_t k, const Point& at,
                    Eigen::Ref<Eigen::RowVectorXd> row) const;
 
   const RichLaws& laws_;
   const RegressionColumns& at_;
   const std::vector<FoldedRecord>& records_;
-  std::vector<Eigen::Index> motion_;  // first column of every record's errors
+  std::vector<std::vector<Place>> places_;  // of every record's rows
+  std::vector<Eigen::Index> motion_;        // first column of every record's errors
   // Units of inertia and delay in which their columns are torques.
   double largest_acceleration_ = 0.0;
   double time_scale_ = 0.0;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kAtBound = 1e-6;  // distance from a bound, in scales, that counts as on it
 constexpr int kRounds = 4;         // of letting go of bounds
+constexpr double kFree = 100.0;    // trust radius from which a step is nearly Gauss's and Newton's
 
 // What the blocks tell beside their values: how often they ran, and why one last failed.
 struct Log {
@@ -98,6 +99,7 @@ class Block final : public ceres::CostFunction {
 Termination termination_of(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
+    case ceres::USER_SUCCESS:
       return Termination::converged;
     case ceres::NO_CONVERGENCE:
       return Termination::iteration_limit;
@@ -120,6 +122,21 @@ ceres::Solver::Options solver_options(const SolverSettings& settings) {
   options.logging_type = ceres::SILENT;
   return options;
 }
+
+// Ends a solve where a step that is hardly damped promises too little.
+class Promise final : public ceres::IterationCallback {
+ public:
+  explicit Promise(double least) : least_(least) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    if (step.iteration == 0 || step.trust_region_radius < kFree) return ceres::SOLVER_CONTINUE;
+    const double promised = step.cost_change / step.relative_decrease;
+    return promised < least_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double least_;
+};
 
 std::vector<double> unscaled(std::span<const BoundedParameter> parameters,
                              const std::vector<double>& x) {
@@ -175,8 +192,11 @@ ceres::Solver::Summary solve_holding(const LeastSquaresProblem& problem,
     ceres_problem.SetManifold(x.data(),
                               new ceres::SubsetManifold(static_cast<int>(x.size()), held));
   }
+  auto options = solver_options(settings);
+  Promise promise(settings.promise);
+  if (settings.promise > 0.0) options.callbacks.push_back(&promise);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(settings), &ceres_problem, &summary);
+  ceres::Solve(options, &ceres_problem, &summary);
   return summary;
 }
 

@@ -51,6 +51,10 @@ struct SolverSettings {
   /// Derivatives are evaluated with the residuals of a trial point, so that one is rejected which
   /// has none; without, such a point ends the fit once it is accepted. Ceres alone.
   bool slopes_at_trials = false;
+  /// Fall of the cost that a step promises below which the fit ends: of residuals in noises, d
+  /// standard deviations from the minimum promise d^2/2, whatever an integrator adds to the cost.
+  /// Ceres alone.
+  double promise = 0.0;
   Curvature curvature = Curvature::gauss_newton;  ///< Ipopt alone
 };
 

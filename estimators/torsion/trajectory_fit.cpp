@@ -11,6 +11,7 @@ namespace flexspline::estimators {
 namespace {
 
 constexpr double kMaterial = 3.0;  // standard deviations from zero of a term that is kept
+constexpr double kSettled = 0.1;   // standard deviations that the minimum may still lie away
 
 // The residuals have unit variance if the noises are what they were measured to be; where more is
 // left, by colour or by what the model lacks, the covariance grows with it.
@@ -111,7 +112,12 @@ Result<TrajectoryFit> fit_torsion(const TrajectoryFit& from,
   }
   TorsionResiduals problem(start.layout, records, integrator);
   if (auto weighed = problem.weigh(start.p); !weighed) return tl::unexpected(weighed.error());
-  return minimised(problem, start, records, settings, Direction::torsion);
+  // An integration with sensitivities takes other steps than one without: the whole search sees
+  // one.
+  SolverSettings consistent = settings;
+  consistent.slopes_at_trials = true;
+  consistent.promise = 0.5 * kSettled * kSettled;
+  return minimised(problem, start, records, consistent, Direction::torsion);
 }
 
 Leftover leftover(const TrajectoryFit& fit, const std::vector<PreparedRecord>& records) {

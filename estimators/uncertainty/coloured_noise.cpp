@@ -154,6 +154,7 @@ WhiteningFilter::WhiteningFilter(const ColouredNoise& noise, std::span<const dou
   const double stationary = noise.share * noise.sigma * noise.sigma;
   const double white = (1.0 - noise.share) * noise.sigma * noise.sigma;
   double variance = stationary;
+  double settled = -1.0;  // the variance that the last step was made of
   double interval = 0.0;
   double decay = 0.0;
   steps_.reserve(times.size());
@@ -168,22 +169,39 @@ WhiteningFilter::WhiteningFilter(const ColouredNoise& noise, std::span<const dou
       transition = decay;
       variance = transition * transition * variance + stationary * (1.0 - transition * transition);
     }
-    const double innovation = variance + white;
-    const double update = variance / innovation;
-    steps_.push_back({transition, update, 1.0 / std::sqrt(innovation)});
-    variance *= 1.0 - update;
+    if (variance == settled && transition == steps_.back().transition) {
+      steps_.push_back(steps_.back());
+    } else {
+      settled = variance;
+      const double innovation = variance + white;
+      const double update = variance / innovation;
+      steps_.push_back({transition, update, 1.0 / std::sqrt(innovation)});
+    }
+    variance *= 1.0 - steps_.back().update;
   }
 }
 
-void WhiteningFilter::whiten(std::span<double> series, std::size_t stride) const {
+void WhiteningFilter::whiten(std::span<double> series) const {
   double process = 0.0;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
-    double& value = series[k * stride];
     process *= step.transition;
-    const double innovation = value - process;
+    const double innovation = series[k] - process;
     process += step.update * innovation;
-    value = innovation * step.weight;
+    series[k] = innovation * step.weight;
+  }
+}
+
+void WhiteningFilter::whiten(
+    Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> rows) const {
+  Eigen::RowVectorXd process = Eigen::RowVectorXd::Zero(rows.cols());
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    auto row = rows.row(static_cast<Eigen::Index>(k));
+    process *= step.transition;
+    row -= process;
+    process += step.update * row;
+    row *= step.weight;
   }
 }
 

@@ -63,8 +63,11 @@ class WhiteningFilter {
   WhiteningFilter(const ColouredNoise& noise, std::span<const double> times);
 
   std::size_t size() const { return steps_.size(); }
-  /// In place, every stride-th value of the series.
-  void whiten(std::span<double> series, std::size_t stride = 1) const;
+  /// In place.
+  void whiten(std::span<double> series) const;
+  /// In place, every column of a matrix with a row an instant.
+  void whiten(Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>
+                  rows) const;
   struct Step {
     double transition;  ///< of the process since the last instant
     double update;      ///< share of an innovation that goes into it

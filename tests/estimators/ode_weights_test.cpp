@@ -197,6 +197,20 @@ TEST(ColouredNoise, IsNotSeenInWhiteNoise) {
 }
 
 // The filter is the inverse of a factor of the covariance matrix, also in uneven steps.
+TEST(WhiteningFilter, TakesAMatrixColumnByColumn) {
+  const std::vector<double> times = {0.0, 0.1, 0.2, 0.5, 0.6, 0.7};
+  const WhiteningFilter filter({0.3, 0.6, 0.25}, times);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows =
+      Eigen::MatrixXd::Random(6, 3);
+  const Eigen::MatrixXd before = rows;
+  filter.whiten(rows);
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    Eigen::VectorXd column = before.col(k);
+    filter.whiten({column.data(), times.size()});
+    EXPECT_LT((rows.col(k) - column).cwiseAbs().maxCoeff(), 1e-15);
+  }
+}
+
 TEST(WhiteningFilter, InvertsTheCovariance) {
   const ColouredNoise noise{1.3, 0.6, 2.0};
   const std::vector<double> times = {0.0, 0.5, 2.0, 2.1, 7.0};

@@ -141,6 +141,38 @@ TEST(Minimise, RejectsTrialPointsWithoutDerivativesWhereItIsAskedTo) {
   EXPECT_NEAR(solution->p[0], 1.0, 1e-7);
 }
 
+/// y - p with unit variance, whose sum of squares an integrator of variable steps leaves rough.
+class Rough final : public LeastSquaresProblem {
+ public:
+  std::size_t blocks() const override { return 1; }
+  std::size_t residuals(std::size_t) const override { return 100; }
+  Result<void> evaluate(std::size_t, std::span<const double> p, std::span<double> residual,
+                        std::span<double> jacobian) const override {
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+      residual[i] = std::cos(static_cast<double>(i)) + p[0] + 1e-3 * std::sin(1e9 * p[0]);
+      if (!jacobian.empty()) jacobian[i] = 1.0;
+    }
+    return {};
+  }
+};
+
+// The minimum is that of the mean, with a standard error of 0.1; the roughness is 1/100 of it.
+TEST(Minimise, EndsWhereAStepPromisesLessThanIsAskedFor) {
+  double mean = 0.0;
+  for (int i = 0; i < 100; ++i) mean -= 0.01 * std::cos(static_cast<double>(i));
+  const std::vector<BoundedParameter> unknown = {{.start = 5.0, .lower = -1e9, .upper = 1e9}};
+  auto settings = kPatient;
+  settings.slopes_at_trials = true;
+  const auto patient = minimise(Rough(), unknown, settings);
+  settings.promise = 0.5 * 0.05 * 0.05;
+  const auto prompt = minimise(Rough(), unknown, settings);
+  ASSERT_TRUE(patient && prompt);
+  EXPECT_EQ(prompt->termination, Termination::converged);
+  EXPECT_NEAR(prompt->p[0], mean, 0.05 * 0.1);
+  EXPECT_LE(prompt->evaluations, 5);
+  EXPECT_GT(patient->evaluations, 2 * prompt->evaluations);
+}
+
 TEST(Minimise, LeavesABoundThatItStartsOn) {
   auto parameters = from_the_valleys_far_end(10.0);
   parameters[0] = {.start = 0.0, .lower = 0.0, .upper = 10.0};
