@@ -1,6 +1,11 @@
+#include <cmath>
+#include <map>
+
 #include <nlohmann/json.hpp>
 
+#include "extent.hpp"
 #include "json_fields.hpp"
+#include "numbers.hpp"
 #include "parse_artefacts.hpp"
 
 namespace flexspline::reports {
@@ -16,21 +21,37 @@ Axis parse_axis(const json& panel, const char* label, const char* log, const cha
   return axis;
 }
 
+/// An axis is as long as its lines and points; what a band reaches has to be in view as well.
+void show_whole_bands(Panel& panel) {
+  Extent values;
+  bool any = false;
+  for (const Series& one : panel.series) {
+    any = any || one.style == "band";
+    for (const auto* list : {&one.y, &one.lower, &one.upper}) values.take(*list);
+  }
+  if (any && !panel.y.log && !values.empty()) {
+    panel.y.range = widened(values.lower, values.upper, 0.05);
+  }
+}
+
 Panel parse_panel(const json& from) {
   Panel panel;
   panel.title = text_in(from, "title");
   panel.x = parse_axis(from, "x_label", "x_log", "x_names");
   panel.y = parse_axis(from, "y_label", "y_log", "y_names");
-  int rank = 0;
+  std::map<std::string, int> ranks;  // a band and a line of one name belong together
   for (const json& one : member(from, "series")) {
-    panel.series.push_back({text_in(one, "name"),
+    const std::string name = text_in(one, "name");
+    const int rank = ranks.try_emplace(name, static_cast<int>(ranks.size())).first->second;
+    panel.series.push_back({name,
                             text_in(one, "style"),
-                            {"plain", rank++},
+                            {"plain", rank},
                             numbers_in(one, "x"),
                             numbers_in(one, "y"),
                             numbers_in(one, "lower"),
                             numbers_in(one, "upper")});
   }
+  show_whole_bands(panel);
   int row = 0;
   for (const json& cells : member(from, "cells")) {
     int column = 0;
@@ -58,9 +79,24 @@ Figure parse_figure(const json& from) {
   return figure;
 }
 
+/// Whether a column holds whole numbers and nothing else that is a number.
+bool counts(const json& rows, std::size_t column) {
+  bool any = false;
+  for (const json& row : rows) {
+    if (!row.is_array() || column >= row.size() || !row[column].is_number()) continue;
+    const double value = row[column].get<double>();
+    if (value != std::round(value) || std::abs(value) > 1e9) return false;
+    any = true;
+  }
+  return any;
+}
+
 Table parse_table(const json& from) {
   Table table{text_in(from, "id"), text_in(from, "caption"), {}, {}};
-  for (const std::string& name : texts_in(from, "columns")) table.columns.push_back({name, "", 3});
+  const auto names = texts_in(from, "columns");
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    table.columns.push_back({names[k], "", counts(member(from, "rows"), k) ? 0 : 3});
+  }
   for (const json& row : member(from, "rows")) {
     auto& cells = table.rows.emplace_back();
     for (const json& cell : row) {

@@ -1,6 +1,8 @@
 #include "answers/cause_discrimination.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -55,8 +57,8 @@ void add_discrimination(const StudyRows& rows, const std::vector<std::string>& c
   AnswerFigure figure{
       "discrimination",
       fmt::format("Discrimination between {} and {}", causes[0], causes[1]),
-      fmt::format("Difference of -2 ln L with the candidate: positive for {}, negative for {}.",
-                  causes[0], causes[1]),
+      "Difference of -2 ln L between the causes, in favour of the one in the title, with the "
+      "candidate added to what is recorded.",
       "",
       {}};
   AnswerTable table{
@@ -77,13 +79,17 @@ void add_discrimination(const StudyRows& rows, const std::vector<std::string>& c
       if (best == candidates.size() || std::abs(with[k]) > std::abs(with[best])) best = k;
     }
     if (best == candidates.size()) continue;
-    figure.panels.push_back(loop_cells(input, candidates, with));
+    const std::string& better = causes[with[best] > 0.0 ? 0 : 1];
+    std::vector<double> cells = with;
+    if (with[best] < 0.0) std::ranges::transform(with, cells.begin(), std::negate<>());
+    figure.panels.push_back(
+        loop_cells(fmt::format("{}: for {}", input, better), candidates, cells));
     answer.says += fmt::format(
-        "{}if the gear is like {}, {:.3g} deg at {:g} Hz separates {} from {}: {:.3g} for {}, "
-        "against {:.3g} by what is recorded",
+        "{}if the gear is like {}, record {:.3g} deg at {:g} Hz: -2 ln L then differs by {:.3g} in "
+        "favour of {}, by what is recorded alone by {:.3g}",
         answer.says.empty() ? "Of the two causes: " : "; ", input,
-        kDegrees * candidates[best].amplitude, candidates[best].frequency_hz, causes[0], causes[1],
-        std::abs(with[best]), causes[with[best] > 0.0 ? 0 : 1], std::abs(alone));
+        kDegrees * candidates[best].amplitude, candidates[best].frequency_hz, std::abs(with[best]),
+        better, std::abs(alone));
   }
   if (figure.panels.empty()) return;
   answer.figures.insert(answer.figures.begin(), std::move(figure));

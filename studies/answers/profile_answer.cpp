@@ -65,11 +65,13 @@ AnswerPanel panel_of(const std::string& title, const CaseRow::Parameter& paramet
   const double to = beyond(profile.upper(), profile.last());
   AnswerSeries own{"profile", "line", {}, {}};
   AnswerSeries parabola{"its covariance's parabola", "line", {}, {}};
-  AnswerSeries limit{"95 %", "line", {from, to}, {kProfileRise, kProfileRise}};
+  AnswerSeries limit{"95 %", "line", {}, {}};
   for (int k = 0; k <= kPoints; ++k) {
     const double x = from + (to - from) * k / kPoints;
     own.x.push_back(x);
     own.y.push_back(profile.rise(x));
+    limit.x.push_back(x);
+    limit.y.push_back(kProfileRise);
     const double z = (x - parameter.value) / parameter.std;
     if (!(z * z < 4.0 * kProfileRise)) continue;
     parabola.x.push_back(x);

@@ -70,7 +70,8 @@ AnswerPanel ranks_panel(const std::string& title, const std::vector<double>& cou
     wanted.lower.push_back(std::max(0.0, 100.0 / bins - width));
     wanted.upper.push_back(100.0 / bins + width);
   }
-  panel.series = {std::move(wanted), std::move(seen)};
+  AnswerSeries level{wanted.name, "line", wanted.x, wanted.y};
+  panel.series = {std::move(wanted), std::move(level), std::move(seen)};
   return panel;
 }
 

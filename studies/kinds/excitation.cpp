@@ -117,8 +117,14 @@ KindAnswer answer(const StudyRows& rows) {
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     suffixes.push_back(fmt::format("{}{}", kWith, k + 1));
   }
+  const auto& names = rows.study().settings.names;
+  const auto causes = names.find("discriminate");
   Widths widths;
   rows.each([&](const CasePlan& one, const CaseRow& row) {
+    // Of an alternative cause the bands say nothing: one of the two models is wrong.
+    if (causes != names.end() && std::ranges::count(causes->second, one.estimator->written_id())) {
+      return;
+    }
     const std::string suffix = one.estimator->id.substr(one.estimator->written_id().size() + 1);
     for (const auto& [number, function] : kFunctions) {
       const double width = row.number(number);
@@ -158,8 +164,7 @@ KindAnswer answer(const StudyRows& rows) {
                                  candidates[best].frequency_hz, gains[best]);
     }
   }
-  const auto causes = rows.study().settings.names.find("discriminate");
-  if (causes != rows.study().settings.names.end()) {
+  if (causes != names.end()) {
     add_discrimination(rows, causes->second, std::string(kBase), suffixes, candidates, answer);
   }
   answer.says = answer.says.empty()

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,16 +94,22 @@ struct Matrix {
   }
 };
 
+/// "0.2/5": an axis has no room for more.
+std::string short_name(const Loop& loop) {
+  return fmt::format("{:.3g}/{:.3g}", loop.amplitude * 180.0 / std::numbers::pi,
+                     1e3 * loop.frequency_hz);
+}
+
 AnswerPanel matrix_panel(const std::string& title, const Matrix& matrix, const StudyConfig& study,
                          const Grid& conditions) {
   AnswerPanel panel;
   panel.title = title;
-  panel.x_label = "tested on";
-  panel.y_label = "trained on";
-  for (const Loop& loop : conditions.loops) panel.x_names.push_back(recording_id(loop));
+  panel.x_label = "tested on, deg/mHz";
+  panel.y_label = "trained on, deg/mHz";
+  for (const Loop& loop : conditions.loops) panel.x_names.push_back(short_name(loop));
   for (const Grid& set : study.grids) {
     if (!set.id.starts_with(kSet) || set.loops.size() != 1) continue;
-    panel.y_names.push_back(set_text(set));
+    panel.y_names.push_back(short_name(set.loops.front()));
     auto& row = panel.cells.emplace_back();
     for (const Loop& loop : conditions.loops)
       row.push_back(matrix.median(set.id, recording_id(loop)));

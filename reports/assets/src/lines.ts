@@ -101,10 +101,23 @@ function spanOption(panel: Panel): Option {
   return { silent: true, itemStyle: { color: theme().highlight, opacity: 0.22 }, data };
 }
 
-/** A logarithmic axis of few values, e.g. frequencies, is labelled at those values. */
-function ticksAtData(axis: Axis, values: number[]): Option {
-  const distinct = [...new Set(values)];
-  return axis.log && !axis.range && distinct.length < 9 ? { customValues: distinct } : {};
+/** 1, 2 and 5 of every decade between two values; of more than three decades their beginnings. */
+function roundTicks(low: number, high: number): number[] {
+  const digits = high / low > 1e3 ? [1] : [1, 2, 5];
+  const ticks: number[] = [];
+  for (let decade = Math.floor(Math.log10(low)); decade <= Math.log10(high); ++decade) {
+    for (const digit of digits) ticks.push(Number(`${digit}e${decade}`));
+  }
+  return ticks.filter((tick) => tick >= low && tick <= high);
+}
+
+/** A logarithmic axis of few values apart from each other, e.g. frequencies, is labelled at those. */
+function logTicks(axis: Axis, values: number[]): Option {
+  const distinct = [...new Set(values)].filter((value) => value > 0).sort((a, b) => a - b);
+  if (!axis.log || axis.range || !distinct.length) return {};
+  const apart = distinct.every((value, i) => !i || value > 1.4 * distinct[i - 1]);
+  if (distinct.length < 9 && apart) return { customValues: distinct };
+  return { customValues: roundTicks(distinct[0] / 1.25, distinct[distinct.length - 1] * 1.25) };
 }
 
 function logRange(axis: Axis, values: number[]): Option {
@@ -154,7 +167,7 @@ function axisOption(axis: Axis, values: number[], other: Option): Option {
       hideOverlap: true,
       showMinLabel: axis.log ? undefined : false,
       showMaxLabel: axis.log ? undefined : false,
-      ...ticksAtData(axis, values),
+      ...logTicks(axis, values),
     },
     ...logRange(axis, values),
     ...linearRange(axis, values),
