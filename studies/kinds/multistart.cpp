@@ -86,7 +86,6 @@ KindAnswer answer(const StudyRows& rows) {
   AnswerPanel& panel = figure.panels.front();
   panel.x_label = "start, by its cost";
   panel.y_label = "cost over the best";
-  panel.y_log = true;
   for (auto& [name, list] : costs) {
     const auto basins = basins_of(list, same);
     const auto best = static_cast<double>(basins.front().starts);
@@ -102,12 +101,13 @@ KindAnswer answer(const StudyRows& rows) {
       series.x.push_back(static_cast<double>(i + 1));
       series.y.push_back(list[i] / list.front());
     }
+    panel.y_log = panel.y_log || list.back() > 10.0 * list.front();
     panel.series.push_back(std::move(series));
     answer.says += fmt::format(
         "{}{}: {:.0f} of {:.0f} starts reach the best cost ({:.0f} %, 95 %: "
-        "{:.0f} to {:.0f} %); {} different minima",
+        "{:.0f} to {:.0f} %); {} different {}",
         answer.says.empty() ? "" : "; ", name, best, starts, 100.0 * best / starts, 100.0 * lower,
-        100.0 * upper, basins.size());
+        100.0 * upper, basins.size(), basins.size() == 1 ? "minimum" : "minima");
   }
   answer.says += answer.says.empty() ? "No start gave a result." : ".";
   answer.figures.push_back(std::move(figure));
