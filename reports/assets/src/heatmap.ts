@@ -1,4 +1,4 @@
-// Numbers over two category axes, coloured on one logarithmic scale.
+// Numbers over two category axes, coloured by their size.
 
 import type { Cell, Figure, Panel } from "./document";
 import { escapeHtml, shown } from "./numbers";
@@ -9,9 +9,19 @@ type Option = Record<string, any>;
 
 const kNotes: Record<string, string> = { trained: " T", outside: " *", right: " ✓" };
 
-function shareOf(value: number, scale: [number, number]): number {
-  const [low, high] = scale.map(Math.log10);
-  return Math.min(1, Math.max(0, (Math.log10(value) - low) / (high - low)));
+/**
+ * Where a number stands among the colours, 0 to 1: errors on a logarithmic scale that all panels share; others, which
+ * may be negative, between the least and the largest of their panel.
+ */
+function sharesOf(panel: Panel, figure: Figure): (value: number) => number {
+  if (figure.scale || (figure.cell_unit ?? "").startsWith("%")) {
+    const [low, high] = (figure.scale ?? [0.1, 100]).map(Math.log10);
+    return (value) => Math.min(1, Math.max(0, (Math.log10(Math.max(value, 1e-12)) - low) / (high - low)));
+  }
+  const values = (panel.cells ?? []).flatMap((cell) => (cell[2] === null ? [] : [cell[2]]));
+  const low = Math.min(...values);
+  const high = Math.max(...values);
+  return (value) => (high > low ? (value - low) / (high - low) : 0.5);
 }
 
 function cellText(value: number | null, unit: string): string {
@@ -19,9 +29,9 @@ function cellText(value: number | null, unit: string): string {
   return value >= 1e5 ? value.toExponential(0).replace("e+", "e") : unit.startsWith("%") ? shown(value, 2) : String(value);
 }
 
-function cellOption(cell: Cell, scale: [number, number], unit: string): Option {
+function cellOption(cell: Cell, shareOf: (value: number) => number, unit: string): Option {
   const [column, row, value, note] = cell;
-  const share = value === null ? 0 : shareOf(Math.max(value, 1e-12), scale);
+  const share = value === null ? 0 : shareOf(value);
   return {
     value: [column, row, share, value],
     label: { color: value === null ? theme().text : inkOn(share), formatter: cellText(value, unit) + (kNotes[note] ?? "") },
@@ -68,7 +78,7 @@ function axisOption(label: string, categories: string[] | undefined, gap: number
 
 export function heatmapOption(panel: Panel, figure: Figure): Option {
   const colours = theme();
-  const scale = figure.scale ?? [0.1, 100];
+  const shareOf = sharesOf(panel, figure);
   const unit = figure.cell_unit ?? "";
   return {
     animation: false,
@@ -89,7 +99,7 @@ export function heatmapOption(panel: Panel, figure: Figure): Option {
       {
         type: "heatmap",
         name: panel.title,
-        data: (panel.cells ?? []).map((cell) => cellOption(cell, scale, unit)),
+        data: (panel.cells ?? []).map((cell) => cellOption(cell, shareOf, unit)),
         label: { show: true, fontSize: 11 },
         itemStyle: { borderColor: colours.surface, borderWidth: 2 },
         emphasis: { itemStyle: { borderColor: colours.text } },
