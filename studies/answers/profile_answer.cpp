@@ -81,6 +81,46 @@ AnswerPanel panel_of(const std::string& title, const CaseRow::Parameter& paramet
   return panel;
 }
 
+std::variant<std::string, double> edge_of(std::optional<double> at) {
+  return at ? std::variant<std::string, double>(*at) : "none";
+}
+
+AnswerTable empty_table() {
+  return {"profile",
+          "95 % intervals by profile and by covariance; \"none\": the profile stays below 3.84 up "
+          "to the last held value. Widening: over independent noise",
+          {"case", "parameter", "unit", "estimate", "profile from", "profile to", "covariance from",
+           "covariance to", "widening"},
+          {}};
+}
+
+/// What the fits of one case say: rows, panels, and a part of the sentence.
+void add_case(const std::string& name, const Fits& fits, AnswerTable& table, AnswerFigure& figure,
+              KindAnswer& answer) {
+  std::vector<std::string> open;
+  std::size_t profiled = 0;
+  bool below = false;
+  for (const CaseRow::Parameter& one : fits.parameters) {
+    const auto profile = profile_of(fits, one, below);
+    if (!profile) continue;
+    ++profiled;
+    table.rows.push_back({name, one.name, one.unit, one.value, edge_of(profile->lower()),
+                          edge_of(profile->upper()), one.value - 1.96 * one.std,
+                          one.value + 1.96 * one.std, profile->widening()});
+    if (!profile->lower() || !profile->upper()) open.push_back(one.name);
+    if (figure.panels.size() < kMostPanels) figure.panels.push_back(panel_of(name, one, *profile));
+  }
+  if (profiled == 0) return;
+  answer.says +=
+      fmt::format("{}{}: {} of {} parameters are bounded on both sides",
+                  answer.says.empty() ? "" : "; ", name, profiled - open.size(), profiled);
+  if (!open.empty()) answer.says += fmt::format(", not {}", fmt::join(open, ", "));
+  if (!below) return;
+  answer.notes.push_back(name +
+                         ": with a parameter held the cost is below that of the free fit, which is "
+                         "not the minimum then: give it more starts.");
+}
+
 }  // namespace
 
 KindAnswer answer_profiles(const StudyRows& rows) {
@@ -90,6 +130,7 @@ KindAnswer answer_profiles(const StudyRows& rows) {
     enter(one, row, found[fmt::format("{}, {}", one.input->id, one.estimator->written_id())]);
   });
   KindAnswer answer;
+  AnswerTable table = empty_table();
   AnswerFigure figure{"profile",
                       "Profile likelihoods",
                       "Rise of -2 ln L with one parameter held and all others fitted. An interval "
@@ -97,44 +138,7 @@ KindAnswer answer_profiles(const StudyRows& rows) {
                       "evidence for either side.",
                       "",
                       {}};
-  AnswerTable table{"profile",
-                    "95 % intervals by profile and by covariance; \"none\": the profile stays "
-                    "below 3.84 up to the last held value. Widening: over independent noise",
-                    {"case", "parameter", "unit", "estimate", "profile from", "profile to",
-                     "covariance from", "covariance to", "widening"},
-                    {}};
-  for (const auto& [name, fits] : found) {
-    std::vector<std::string> open;
-    std::size_t profiled = 0;
-    bool below = false;
-    for (const CaseRow::Parameter& parameter : fits.parameters) {
-      const auto profile = profile_of(fits, parameter, below);
-      if (!profile) continue;
-      ++profiled;
-      const auto edge = [](std::optional<double> at) -> std::variant<std::string, double> {
-        return at ? std::variant<std::string, double>(*at) : "none";
-      };
-      table.rows.push_back({name, parameter.name, parameter.unit, parameter.value,
-                            edge(profile->lower()), edge(profile->upper()),
-                            parameter.value - 1.96 * parameter.std,
-                            parameter.value + 1.96 * parameter.std, profile->widening()});
-      if (!profile->lower() || !profile->upper()) open.push_back(parameter.name);
-      if (figure.panels.size() < kMostPanels) {
-        figure.panels.push_back(panel_of(name, parameter, *profile));
-      }
-    }
-    if (profiled == 0) continue;
-    answer.says +=
-        fmt::format("{}{}: {} of {} parameters are bounded on both sides",
-                    answer.says.empty() ? "" : "; ", name, profiled - open.size(), profiled);
-    if (!open.empty()) answer.says += fmt::format(", not {}", fmt::join(open, ", "));
-    if (below) {
-      answer.notes.push_back(fmt::format(
-          "{}: with a parameter held the cost is below that of the free fit, which is not the "
-          "minimum then: give it more starts.",
-          name));
-    }
-  }
+  for (const auto& [name, fits] : found) add_case(name, fits, table, figure, answer);
   answer.says += answer.says.empty() ? "No fit of all parameters gave a result." : ".";
   answer.figures.push_back(std::move(figure));
   answer.tables.push_back(std::move(table));

@@ -91,9 +91,14 @@ Result<bool> check_content(const OutputWish& wish, const data::Manifest& wanted)
     return refuse(wish.folder,
                   fmt::format("holds what {} did not write: {}", wish.command, content), kRemedy);
   }
+  const bool same_name = earlier->command == wish.command && earlier->input == wish.input;
   return refuse(wish.folder,
-                fmt::format("holds what {} wrote of '{}', not {} of '{}'", earlier->command,
-                            earlier->input, wish.command, wish.input),
+                same_name
+                    ? fmt::format("holds what {} wrote of another '{}': the name is the same, "
+                                  "where it lies and what it says are not",
+                                  earlier->command, earlier->input)
+                    : fmt::format("holds what {} wrote of '{}', not {} of '{}'", earlier->command,
+                                  earlier->input, wish.command, wish.input),
                 kRemedy);
 }
 

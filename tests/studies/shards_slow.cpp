@@ -54,6 +54,7 @@ TEST_F(Shards, KilledAtAHundredMomentsTheResultIsTheSame) {
     Call call{{"run", path("study.toml"), "--out", path("out"), "--jobs", "2"}};
     if (k % 3 == 1) call.arguments.insert(call.arguments.end(), {"--shard", "1/2"});
     if (k % 3 == 2) call.arguments.insert(call.arguments.end(), {"--shard", "2/2"});
+    if (k % 3 > 0 && k % 2 == 0) call.arguments.emplace_back("--pull");
     call.limit = 1e-3 * static_cast<double>(draw() % 400);
     call.stop_signal = SIGKILL;
     run_program(call);
