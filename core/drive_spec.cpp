@@ -1,6 +1,7 @@
 #include "flexspline/core/drive_spec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -31,7 +32,23 @@ void append_effect(std::vector<DriveParameter>& list, const EffectSpec& effect) 
   }
 }
 
+constexpr std::array kOrigins = {
+    std::pair{Origin::given, std::string_view("given")},
+    std::pair{Origin::fitted, std::string_view("fitted")},
+    std::pair{Origin::not_identifiable, std::string_view("not identifiable")},
+    std::pair{Origin::assumed, std::string_view("assumed")}};
+
 }  // namespace
+
+std::string_view name_of(Origin origin) {
+  return std::ranges::find(kOrigins, origin, &decltype(kOrigins)::value_type::first)->second;
+}
+
+std::optional<Origin> find_origin(std::string_view name) {
+  const auto found = std::ranges::find(kOrigins, name, &decltype(kOrigins)::value_type::second);
+  if (found == kOrigins.end()) return std::nullopt;
+  return found->first;
+}
 
 std::span<const DriveConstant> drive_constants() {
   using D = DriveSpec;

@@ -3,12 +3,7 @@
 # Needs BUILD, SOURCE, WORK.
 cmake_minimum_required(VERSION 3.25)
 
-function(call)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text)
-  if(NOT code EQUAL 0)
-    message(FATAL_ERROR "${ARGN}: ${code}\n${text}")
-  endif()
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/call.cmake")
 
 file(REMOVE_RECURSE "${WORK}")
 call("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")

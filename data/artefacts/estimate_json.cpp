@@ -93,9 +93,13 @@ Json rmse(const std::vector<RecordingFit>& fits) {
 
 }  // namespace
 
+Json to_json(const std::vector<ParameterEstimate>& parameters) {
+  Json list = Json::array();
+  for (const ParameterEstimate& one : parameters) list.push_back(to_json(one));
+  return list;
+}
+
 Json to_json(const Estimate& estimate, const DisplayUnits& units) {
-  Json parameters = Json::array();
-  for (const ParameterEstimate& one : estimate.parameters) parameters.push_back(to_json(one));
   Json domains = Json::object();
   Json bands = Json::array();
   for (const FunctionBand& band : estimate.bands) {
@@ -105,7 +109,7 @@ Json to_json(const Estimate& estimate, const DisplayUnits& units) {
   return {{"schema", "flexspline-estimate/1"},
           {"estimator", estimate.estimator},
           {"model", to_json(estimate.model)},
-          {"parameters", std::move(parameters)},
+          {"parameters", to_json(estimate.parameters)},
           {"termination", name_of(estimate.termination)},
           {"cost", number(estimate.cost)},
           {"residual", estimate.residual},

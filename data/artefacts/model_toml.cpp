@@ -38,6 +38,15 @@ std::string rig_text(const RigModel& model) {
   return text;
 }
 
+std::string origin_text(const RigModel& model) {
+  if (model.origin.empty()) return {};
+  std::string text = "\n[origin]\n";
+  for (const auto& [name, origin] : model.origin) {
+    text += fmt::format("{} = {}\n", name, toml_quoted(name_of(origin)));
+  }
+  return text;
+}
+
 std::string laws_and_effects(const ModelSpec& model) {
   std::string text;
   text += law_text("f", model.f);
@@ -56,7 +65,8 @@ std::string model_toml(const ModelSpec& model) {
 }
 
 std::string model_toml(const RigModel& model) {
-  return std::string(kFirstLine) + rig_text(model) + laws_and_effects(model.drive.torsion);
+  return std::string(kFirstLine) + rig_text(model) + origin_text(model) +
+         laws_and_effects(model.drive.torsion);
 }
 
 Result<void> write_model(const std::filesystem::path& path, const ModelSpec& model) {

@@ -19,8 +19,8 @@ namespace flexspline::data {
 namespace {
 
 constexpr std::string_view kSchema = "flexspline-model/1";
-constexpr std::array<std::string_view, 7> kKeys = {"schema",    "note", "rig",   "f",
-                                                   "g_inverse", "h",    "effect"};
+constexpr std::array<std::string_view, 8> kKeys = {"schema", "note",      "rig", "origin",
+                                                   "f",      "g_inverse", "h",   "effect"};
 constexpr std::array<std::string_view, 5> kLawKeys = {"law", "scale", "knots", "coefficients",
                                                       "valid_to"};
 constexpr std::string_view kUnity = "bounded_modulation";  // without coefficients: h = 1
@@ -204,6 +204,23 @@ void parse_rig(TomlReader& reader, const toml::table& table, RigModel& model) {
   }
 }
 
+/// What the rig has constants for, and the laws; in the words of Origin.
+void parse_origin(TomlReader& reader, const toml::table& table, RigModel& model) {
+  std::vector<std::string_view> known = {"gear_ratio", "f", "g_inverse", "h"};
+  for (const DriveConstant& one : rig_row(model.rig).constants) known.push_back(one.name);
+  reader.check_keys(table, known);
+  for (std::string_view name : known) {
+    const auto word = reader.text(table, name);
+    if (!word) continue;
+    if (const auto origin = find_origin(*word)) {
+      model.origin.emplace(name, *origin);
+    } else {
+      reader.refuse(table.get(name)->source(), fmt::format("unknown origin '{}'", *word),
+                    "given, fitted, not identifiable or assumed");
+    }
+  }
+}
+
 void parse_root(TomlReader& reader, const toml::table& root, const std::vector<Finding>& errors,
                 RigModel& model) {
   const auto schema = reader.required_text(root, "schema");
@@ -214,6 +231,9 @@ void parse_root(TomlReader& reader, const toml::table& root, const std::vector<F
   }
   reader.check_keys(root, kKeys);
   if (const toml::table* table = reader.subtable(root, "rig")) parse_rig(reader, *table, model);
+  if (const toml::table* table = reader.subtable(root, "origin")) {
+    parse_origin(reader, *table, model);
+  }
   ModelSpec& torsion = model.drive.torsion;
   parse_laws(reader, root, errors, model.rig == Rig::servo, torsion);
   if (const toml::array* list = reader.list(root, "effect")) parse_effects(reader, *list, torsion);

@@ -78,7 +78,8 @@ Result<ServoClock> servo_clock(const std::vector<const Recording*>& recordings, 
         return failure(ErrorCode::input_missing,
                        fmt::format("recording {} has no {}, by which a servo is driven",
                                    recordings[r]->id, name_of(quantity)),
-                       "record it and name it in dataset.toml");
+                       "record it and name it in dataset.toml; where the motor's torque or current "
+                       "is recorded, flexspline diagnose fits the whole servo");
       }
       std::vector<double> time = recordings[r]->time;
       for (double& t : time) t += clock.start[r] - recordings[r]->time.front();

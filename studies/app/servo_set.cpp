@@ -9,9 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "flexspline/data/artefact.hpp"
+#include "fitted_rig.hpp"
 #include "flexspline/data/estimate_json.hpp"
-#include "flexspline/data/model_toml.hpp"
 #include "flexspline/estimators/servo_fit.hpp"
 
 namespace flexspline::app {
@@ -157,16 +156,15 @@ Result<ExitCode> fit_servo_set(RecordingSet set, const estimators::GivenModel& m
   if (!settings) return tl::unexpected(settings.error());
   const auto fit = estimators::fit_servo(set, model, *settings);
   if (!fit) return tl::unexpected(fit.error());
-  const ordered_json estimate = judged(*fit, set, *settings);
+  ordered_json estimate = judged(*fit, set, *settings);
+  const auto rig = fitted_servo(set, fit->drive, estimate);
+  if (!rig) return tl::unexpected(rig.error());
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (auto written = data::write_model(folder / "model.toml", fit->estimate.model); !written) {
+  if (auto written = write_fit(folder, estimate, *rig); !written) {
     return tl::unexpected(written.error());
   }
-  if (auto written = data::write_artefact(folder / "estimate.json", estimate); !written) {
-    return tl::unexpected(written.error());
-  }
-  console.result(console.json ? estimate.dump(2) : summary_of(estimate));
+  console.result(console.json ? estimate.dump(2) : summary_of(estimate) + text_of(*rig));
   return kDone;
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/baseline.hpp"
+#include "flexspline/core/rig.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -84,6 +86,25 @@ RigConstants rig_constants(const Frame& frame, const DriveModel& model) {
   drive.motor_viscous = own[0];
   put_dry_friction(frame, own.segment(1, dry), drive);
   return constants;
+}
+
+void mark_origin(const Frame& frame, RigModel& model) {
+  auto& origin = model.origin;
+  if (frame.rig != Rig::specimen) origin["gear_ratio"] = Origin::given;
+  const std::map<std::string_view, double> stated = {{"motor_inertia", frame.motor_inertia},
+                                                     {"load_inertia", frame.load_inertia},
+                                                     {"load_mass", frame.load_mass},
+                                                     {"arm_length", frame.arm_length}};
+  for (const DriveConstant& one : rig_row(frame.rig).constants) {
+    const double value = model.drive.*one.member;
+    if (value == 0.0) continue;
+    const auto found = stated.find(one.name);
+    const bool given = found != stated.end() && found->second == value;
+    origin.emplace(one.name, given ? Origin::given : Origin::fitted);
+  }
+  if (!frame.has(Equation::torsion)) return;
+  origin["f"] = origin["g_inverse"] = Origin::fitted;
+  origin["h"] = model.drive.torsion.h.coefficients.empty() ? Origin::assumed : Origin::fitted;
 }
 
 // A column that grows with the recorded torque needs no factor, one that does not needs it whole.

@@ -20,4 +20,8 @@ struct RigConstants {
 
 RigConstants rig_constants(const Frame& frame, const DriveModel& model);
 
+/// Where the constants and laws of a diagnosis' model come from. What the set states stays given,
+/// but for an inertia that a cause corrects.
+void mark_origin(const Frame& frame, RigModel& model);
+
 }  // namespace flexspline::studies

@@ -72,6 +72,7 @@ class Specifier {
     put_laws();
     auto& effects = constants_.drive.torsion.effects;
     spec().effects.insert(spec().effects.begin(), effects.begin(), effects.end());
+    mark_origin(frame_, rig_);
     return {std::move(rig_), std::move(notes_)};
   }
 

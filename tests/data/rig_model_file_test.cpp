@@ -14,6 +14,10 @@ TEST(RigModelFile, ReadsBackToTheLastBit) {
          {{"excess", 0.1}, {"stribeck_speed", 3.0}, {"exponent", 2.0}, {"smoothing", 0.1}},
          "too small to be named",
          true}};
+    model.origin = {{"gear_ratio", Origin::given},
+                    {"f", Origin::fitted},
+                    {"h", Origin::assumed},
+                    {"motor_viscous", Origin::not_identifiable}};
     const auto back = parse_rig_model(model_toml(model), "model.toml");
     ASSERT_TRUE(back) << back.error().message();
     EXPECT_EQ(back->rig, rig);
@@ -24,6 +28,7 @@ TEST(RigModelFile, ReadsBackToTheLastBit) {
     const EffectSpec& effect = back->drive.torsion.effects.front();
     EXPECT_EQ(effect.note, "too small to be named");
     EXPECT_TRUE(effect.across);
+    EXPECT_EQ(back->origin, model.origin);
     EXPECT_TRUE(back->drive.torsion.f == model.drive.torsion.f);
   }
 }
@@ -41,6 +46,10 @@ TEST(RigModelFile, RefusesWhatTheRigDoesNotHave) {
   EXPECT_EQ(refusal("rig = \"free\"\ngear_ratio = 50\n"), "");
   EXPECT_THAT(refusal("rig = \"fre\"\n"), HasSubstr("unknown rig 'fre'"));
   EXPECT_THAT(refusal("rig = \"locked\"\nload_inertia = 1.0\n"), HasSubstr("load_inertia"));
+  EXPECT_THAT(refusal("rig = \"free\"\n[origin]\nh = \"guessed\"\n"),
+              HasSubstr("unknown origin 'guessed'"));
+  EXPECT_THAT(refusal("rig = \"locked\"\n[origin]\nload_inertia = \"given\"\n"),
+              HasSubstr("load_inertia"));
   EXPECT_THAT(refusal("rig = \"free\"\nload_inertia = -1.0\n"), HasSubstr("load_inertia is -1"));
 }
 

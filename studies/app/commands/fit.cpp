@@ -8,9 +8,8 @@
 #include "command.hpp"
 #include "dataset_study.hpp"
 #include "error_text.hpp"
-#include "flexspline/data/artefact.hpp"
+#include "fitted_rig.hpp"
 #include "flexspline/data/dataset.hpp"
-#include "flexspline/data/estimate_json.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "output_folder.hpp"
 #include "run_folder.hpp"
@@ -22,13 +21,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// estimate.json, and its model as model.toml, which simulate reads.
-Result<void> write_estimate(const std::filesystem::path& folder, const ordered_json& estimate) {
-  const auto model = data::model_from_json(estimate.at("model"));
-  if (!model) return tl::unexpected(model.error());
-  const auto written = data::write_model(folder / "model.toml", *model);
-  if (!written) return written;
-  return data::write_artefact(folder / "estimate.json", estimate);
+/// The set with the roles that its recordings had in a case.
+RecordingSet with_roles(RecordingSet set, const ordered_json& artefact) {
+  for (const ordered_json& recording : artefact.at("recordings")) {
+    const auto found =
+        std::ranges::find(set.recordings, recording.at("id").get<std::string>(), &Recording::id);
+    if (found == set.recordings.end()) continue;
+    found->split = recording.at("role") == "holdout" ? Split::holdout : Split::train;
+  }
+  return set;
 }
 
 /// The estimate of a case with the errors in effort of every recording, train and hold-out.
@@ -78,7 +79,7 @@ std::string pooled_line(const ordered_json& estimate, const char* role) {
                      error_text(pooled, estimate.value("error_unit", ""), nullptr));
 }
 
-std::string summary_of(const ordered_json& estimate) {
+std::string summary_of(const ordered_json& estimate, const FittedRig& rig) {
   std::string text =
       fmt::format("{}: {}, {} parameters, {}", estimate.value("estimator", ""),
                   estimate.value("termination", ""), estimate.at("parameters").size(),
@@ -91,7 +92,7 @@ std::string summary_of(const ordered_json& estimate) {
     }
     text += pooled_line(estimate, role);
   }
-  return text + notes_text(estimate.at("notes"));
+  return text + text_of(rig) + notes_text(estimate.at("notes"));
 }
 
 /// Either an estimator of the catalogue or the form of a model file.
@@ -171,19 +172,22 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const std::string key =
       fmt::format("{}--{}--r0", study->inputs.front().id, study->estimators.front().id);
   ordered_json estimate;
+  FittedRig rig;
   // The estimate is what was asked for; drawing a report takes longer than many fits.
   where->when_computed = [&](const studies::RunSummary& summary) -> Result<void> {
     if (!summary.failed.empty()) return {};
     const auto stored = stored_case(folder, key);
     if (!stored) return tl::unexpected(stored.error());
-    estimate = estimate_of(ordered_json::parse(stored->artefact));
+    const auto artefact = ordered_json::parse(stored->artefact);
+    estimate = estimate_of(artefact);
     estimate["seconds"] = stored->seconds;
-    if (study->estimators.front().model) {
-      const auto set = data::load_dataset(arguments.text("dataset"), study->inputs.front().rows);
-      if (!set) return tl::unexpected(set.error());
-      estimate["pooled_rmse"] = pooled_of(estimate, *set);
-    }
-    return write_estimate(folder, estimate);
+    const auto set = data::load_dataset(arguments.text("dataset"), study->inputs.front().rows);
+    if (!set) return tl::unexpected(set.error());
+    if (study->estimators.front().model) estimate["pooled_rmse"] = pooled_of(estimate, *set);
+    auto whole = fitted_rig(with_roles(*set, artefact), estimate);
+    if (!whole) return tl::unexpected(whole.error());
+    rig = std::move(*whole);
+    return write_fit(folder, estimate, rig);
   };
   std::filesystem::path report;
   const auto planned = studies::plan_fits(*study, build_id());
@@ -191,7 +195,8 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto summary = run_in_folder(**planned, *where, console, report);
   if (!summary) return tl::unexpected(summary.error());
   if (!summary->failed.empty()) return kSomethingFailed;
-  console.result(console.json ? estimate.dump(2) : summary_of(estimate) + "\n" + report.string());
+  console.result(console.json ? estimate.dump(2)
+                              : summary_of(estimate, rig) + "\n" + report.string());
   return kDone;
 }
 

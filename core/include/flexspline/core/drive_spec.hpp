@@ -1,6 +1,8 @@
 #pragma once
 
 #include <limits>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,10 +43,19 @@ struct DriveSpec {
   PositionLoop position_loop{};
 };
 
+/// Where a number of a model comes from: the data set states it; recordings were fitted; they
+/// cannot tell it, so that its value is one of many; nobody asked.
+enum class Origin { given, fitted, not_identifiable, assumed };
+
+std::string_view name_of(Origin origin);
+std::optional<Origin> find_origin(std::string_view name);
+
 /// A drive and the bench it stands in: all that a simulation needs beside its inputs.
 struct RigModel {
   Rig rig = Rig::specimen;
   DriveSpec drive;
+  /// Of constants by their names, and of f, g_inverse and h; what is not there is not known.
+  std::map<std::string, Origin, std::less<>> origin = {};
 };
 
 /// A constant of the drive that may be a parameter of a simulation.

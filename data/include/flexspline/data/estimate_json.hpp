@@ -15,6 +15,9 @@ namespace flexspline::data {
 /// model is complete and in SI. What was not computed is null.
 nlohmann::ordered_json to_json(const Estimate& estimate, const DisplayUnits& units);
 
+/// Its parameters alone: name, value, std, ci95, unit, bound_active.
+nlohmann::ordered_json to_json(const std::vector<ParameterEstimate>& parameters);
+
 /// A model with every number of it, SI.
 nlohmann::ordered_json to_json(const ModelSpec& model);
 
