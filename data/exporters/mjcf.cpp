@@ -8,12 +8,14 @@
 #include "export/carrier.hpp"
 #include "export/filled.hpp"
 #include "export/law_fits.hpp"
+#include "export/mjcf_friction.hpp"
 #include "export/xml.hpp"
 
 namespace flexspline::data {
 namespace {
 
 constexpr double kTimestep = 1e-4;
+constexpr double kBristleStep = 2e-5;  // Euler's error with bristles falls with the step
 constexpr double kAbrupt = 1e-3;  // width of the sign of a friction loss over that of the model
 
 double parameter(const EffectSpec& effect, std::string_view name) {
@@ -32,14 +34,14 @@ double sum_of(const DriveSpec& drive, std::string_view effect, std::string_view 
 }
 
 std::string no_place(const EffectRow& row, const EffectSpec& effect) {
-  if (effect.across) return "a friction across the transmission has no attribute";
   constexpr std::string_view kHeld[] = {"coulomb_viscous_friction", "gravity_load",
                                         "motor_torque_offset", "torque_constant_error"};
-  if (std::ranges::find(kHeld, row.id) != std::end(kHeld)) return {};
-  return "MJCF has no attribute for it";
+  if (std::ranges::find(kHeld, row.id) == std::end(kHeld))
+    return no_place_for_friction(row, effect);
+  return effect.across ? "a friction across the transmission has no attribute" : std::string();
 }
 
-bool has_abrupt_friction(const RigModel& model) {
+bool has_dry_friction(const RigModel& model) {
   const DriveSpec& d = model.drive;
   return d.motor_coulomb > 0.0 || sum_of(d, "coulomb_viscous_friction", "coulomb") > 0.0;
 }
@@ -83,8 +85,16 @@ Result<Carried> carry(const RigModel& model) {
         return std::ranges::any_of(m.drive.torsion.h.coefficients,
                                    [](double c) { return c != 0.0; });
       });
+  carrier.change("presliding of the motor's friction with a Stribeck part",
+                 "LuGre's bristles, which hold the Stribeck part, give before they slip",
+                 gather_in_bristles,
+                 [](const RigModel& m) { return has_stribeck(m) && has_dry_friction(m); });
+  carrier.drop_effects([](const EffectRow& row, const EffectSpec&) {
+    return row.id == "stribeck_friction" ? std::string("without Coulomb friction it is not passive")
+                                         : std::string();
+  });
   carrier.change("the speed over which dry friction changes its sign",
-                 "a friction loss is abrupt and sticks", make_abrupt, has_abrupt_friction);
+                 "a friction loss is abrupt and sticks", make_abrupt, has_dry_friction);
   return std::move(carrier).done();
 }
 
@@ -150,8 +160,8 @@ std::string two_bodies(const DriveSpec& d, bool load) {
 
 std::string tendon(const DriveSpec& d, bool load) {
   return fmt::format(
-      "  <tendon>\n    <fixed name=\"gear\" springlength=\"0\" stiffness=\"{}\" damping=\"{}\">\n"
-      "      <joint joint=\"motor\" coef=\"{}\"/>\n{}    </fixed>\n  </tendon>\n",
+      "    <fixed name=\"gear\" springlength=\"0\" stiffness=\"{}\" damping=\"{}\">\n"
+      "      <joint joint=\"motor\" coef=\"{}\"/>\n{}    </fixed>\n",
       polynomial(d.torsion.f), polynomial(d.torsion.g_inverse), 1.0 / d.gear_ratio,
       load ? "      <joint joint=\"load\" coef=\"-1\"/>\n" : "");
 }
@@ -170,28 +180,32 @@ std::string actuator(const DriveSpec& d, std::string_view joint, double gear) {
   const double gain = 1.0 + sum_of(d, "torque_constant_error", "error");
   const double offset = -sum_of(d, "motor_torque_offset", "offset");
   return fmt::format(
-      "  <actuator>\n    <general name=\"motor_torque\" joint=\"{}\" gear=\"{}\" "
-      "gainprm=\"{}\" biastype=\"affine\" biasprm=\"{} 0 0\"/>\n  </actuator>\n",
+      "    <general name=\"motor_torque\" joint=\"{}\" gear=\"{}\" "
+      "gainprm=\"{}\" biastype=\"affine\" biasprm=\"{} 0 0\"/>\n",
       joint, gear, gain, offset);
 }
 
-std::string head_text(const ExportHead& head) {
+std::string head_text(const ExportHead& head, double timestep) {
   return fmt::format(
       "<mujoco model=\"{}\">\n  <!-- A harmonic drive, written by flexspline. SI: rad, Nm, s. The "
       "control is the motor's torque at its shaft.\n{} -->\n"
       "  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
       "  <option timestep=\"{}\" integrator=\"Euler\" gravity=\"0 0 -9.80665\"/>\n",
-      head.name, xml_comment(commented(head, "       ")), kTimestep);
+      head.name, xml_comment(commented(head, "       ")), timestep);
 }
 
 Result<std::vector<ExportedFile>> write(const RigModel& model, const ExportHead& head) {
   const DriveSpec& d = model.drive;
   const bool servo = model.rig == Rig::servo;
   const bool load = model.rig == Rig::free;
-  std::string text = head_text(head) + "  <worldbody>\n" +
-                     (servo ? servo_body(d) : two_bodies(d, load)) + "  </worldbody>\n";
-  if (!servo) text += tendon(d, load);
-  text += servo ? actuator(d, "load", d.gear_ratio) : actuator(d, "motor", 1.0);
+  std::string text = head_text(head, has_bristles(d) ? kBristleStep : kTimestep) +
+                     "  <worldbody>\n" + (servo ? servo_body(d) : two_bodies(d, load)) +
+                     slip_bodies(d) + "  </worldbody>\n";
+  const std::string tendons = (servo ? std::string() : tendon(d, load)) + slip_tendons(model);
+  if (!tendons.empty()) text += "  <tendon>\n" + tendons + "  </tendon>\n";
+  text += "  <actuator>\n" +
+          (servo ? actuator(d, "load", d.gear_ratio) : actuator(d, "motor", 1.0)) +
+          bristle_actuators(model) + "  </actuator>\n";
   return std::vector<ExportedFile>{{head.name + ".xml", text + "</mujoco>\n"}};
 }
 
@@ -202,8 +216,11 @@ ExporterRow describe_mjcf() {
           .says = "joints, a tendon as the transmission and an actuator for MuJoCo",
           .carries =
               "ratio, inertias, weight, viscous and dry friction; f as a x + c x^3, g^-1 as "
-              "a v + b v|v| + c v^3; offset of the motor's torque, error of its constant",
-          .not_carried = "h; other effects; the speed over which dry friction changes its sign",
+              "a v + b v|v| + c v^3; offset of the motor's torque, error of its constant; friction "
+              "with memory (Stribeck, LuGre, Dahl) as LuGre's bristles, slip elements",
+          .not_carried =
+              "h; other effects; the speed over which dry friction changes its sign; the "
+              "fall of the bristles' damping with speed",
           .carry = carry,
           .write = write};
 }

@@ -96,6 +96,60 @@ TEST_F(InMuJoCo, WeightOffsetAndGainOfTheMotorAreHeld) {
   expect_within(model, 1.5, 1e-3);
 }
 
+// Friction with memory against our own simulation of the same model, in the engine.
+struct Friction {
+  std::string name;
+  Rig rig = Rig::free;
+  EffectSpec effect;
+  double share = 1e-3;
+};
+
+std::ostream& operator<<(std::ostream& out, const Friction& one) { return out << one.name; }
+
+class FrictionInMuJoCo : public InMuJoCo, public testing::WithParamInterface<Friction> {};
+
+TEST_P(FrictionInMuJoCo, MovesAsOurs) {
+  RigModel model = baseline(GetParam().rig);
+  if (GetParam().rig == Rig::servo) model.drive.load_inertia = 0.6;
+  if (GetParam().effect.effect == "lugre_friction") model.drive.motor_coulomb = 0.0;
+  model.drive.torsion.effects = {GetParam().effect};
+  EXPECT_EQ(carried("mjcf", model).model.drive.torsion.effects.size(), 1u);
+  expect_within(model, GetParam().rig == Rig::servo ? 0.8 : 1.5, GetParam().share);
+}
+
+const EffectSpec kLuGre = {"lugre_friction",
+                           {{"coulomb", 0.03},
+                            {"excess", 0.015},
+                            {"stribeck_speed", 5.0},
+                            {"slip_length", 0.02},
+                            {"damping", 0.02}}};
+const EffectSpec kStribeck = {
+    "stribeck_friction",
+    {{"excess", 0.015}, {"stribeck_speed", 5.0}, {"exponent", 2.0}, {"smoothing", 0.02}}};
+const EffectSpec kDahl = {"dahl_hysteresis", {{"height", 4.5}, {"slip_length", 3e-4}}};
+const EffectSpec kSlips = {
+    "presliding_hysteresis",
+    {{"stiffness", 4000.0}, {"yield", 2e-4}, {"stiffness", 3000.0}, {"yield", 6e-4}}};
+
+INSTANTIATE_TEST_SUITE_P(Effects, FrictionInMuJoCo,
+                         testing::Values(Friction{"lugre_free", Rig::free, kLuGre},
+                                         // A pendulum that lets go a step late swings on late.
+                                         Friction{"lugre_servo", Rig::servo, kLuGre, 1e-2},
+                                         Friction{"stribeck_free", Rig::free, kStribeck},
+                                         Friction{"dahl_free", Rig::free, kDahl},
+                                         Friction{"slips_free", Rig::free, kSlips}),
+                         [](const auto& one) { return one.param.name; });
+
+TEST_F(InMuJoCo, AStribeckCurveOfAnotherExponentIsRefused) {
+  RigModel model = baseline(Rig::free);
+  EffectSpec other = kStribeck;
+  other.parameters[2].second = 1.0;
+  model.drive.torsion.effects = {other};
+  const Carried c = carried("mjcf", model);
+  EXPECT_TRUE(c.model.drive.torsion.effects.empty());
+  EXPECT_THAT(c.lost.front().why, testing::HasSubstr("exponent 2"));
+}
+
 // What the form cannot hold is measured by us as the engine has it: the carried model is what is
 // compared.
 TEST_F(InMuJoCo, WhatIsLostIsWhatTheEngineLacks) {
