@@ -32,10 +32,12 @@ Moved moved(const FunctionBand& band) {
 }
 
 std::string misfit_text(const TorsionPosterior& posterior) {
+  const std::string where =
+      posterior.misfits.empty() ? "" : fmt::format(" ({})", fmt::join(posterior.misfits, ", "));
   return fmt::format(
-      "whatever f, g^-1 and h are, eq. (4) leaves {:.3g} times the noise that repeats show ({}): "
+      "whatever f, g^-1 and h are, eq. (4) leaves {:.3g} times the noise that repeats show{}: "
       "something else is at work, and h may stand in for it",
-      posterior.misfit, fmt::join(posterior.misfits, ", "));
+      posterior.misfit, where);
 }
 
 }  // namespace

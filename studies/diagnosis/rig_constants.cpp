@@ -97,7 +97,12 @@ void mark_origin(const Frame& frame, RigModel& model) {
                                                      {"arm_length", frame.arm_length}};
   for (const DriveConstant& one : rig_row(frame.rig).constants) {
     const double value = model.drive.*one.member;
-    if (value == 0.0) continue;
+    const bool of_motor = one.name == "motor_viscous" || one.name == "motor_coulomb";
+    if (of_motor && !frame.has(Equation::motor)) {
+      origin.emplace(one.name, Origin::not_identifiable);
+      continue;
+    }
+    if (value == 0.0 || (one.name == "coulomb_width" && model.drive.motor_coulomb == 0.0)) continue;
     const auto found = stated.find(one.name);
     const bool given = found != stated.end() && found->second == value;
     origin.emplace(one.name, given ? Origin::given : Origin::fitted);

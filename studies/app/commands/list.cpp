@@ -19,6 +19,7 @@
 #include "flexspline/studies/kind.hpp"
 #include "flexspline/studies/metric.hpp"
 #include "output_folder.hpp"
+#include "reference_pages.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -118,7 +119,7 @@ ordered_json list_metrics() {
   ordered_json list = ordered_json::array();
   for (const studies::MetricRow& row : studies::metrics()) {
     const bool effort = row.unit == studies::MetricUnit::effort;
-    list.push_back({{"id", row.id}, {"says", row.meaning}, {"unit", effort ? "effort" : "%"}});
+    list.push_back({{"id", row.id}, {"says", row.meaning}, {"unit", effort ? "torque (force)" : "%"}});
   }
   return list;
 }
@@ -179,31 +180,42 @@ constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_la
                                      {"truths", list_truths},   {"exporters", list_exporters},
                                      {"readers", list_readers}, {"commands", list_commands}};
 
+constexpr std::string_view kReference = "reference";  // all catalogues, as pages
+
+Result<void> write_all(const std::string& folder, bool force) {
+  std::map<std::string, ordered_json> rows;
+  for (const Catalogue& one : kCatalogues) {
+    if (one.name != "effects") rows.emplace(one.name, one.rows());
+  }
+  return write_reference(folder, rows, force);
+}
+
 Result<ExitCode> write_pages(const std::string& catalogue, const std::string& folder, bool force,
                              Console& console) {
-  if (catalogue != "effects") {
+  if (catalogue != "effects" && catalogue != kReference) {
     return failure(ErrorCode::usage, fmt::format("--pages: '{}' has no pages", catalogue),
-                   "only effects have");
+                   "effects has, and reference, which is all other catalogues");
   }
-  if (!force) {
+  if (catalogue == "effects" && !force) {
     if (auto checked = check_effect_pages(folder); !checked) return tl::unexpected(checked.error());
   }
-  if (auto done = write_effect_pages(folder); !done) return tl::unexpected(done.error());
+  const auto done = catalogue == "effects" ? write_effect_pages(folder) : write_all(folder, force);
+  if (!done) return tl::unexpected(done.error());
   console.result(folder);
   return kDone;
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const std::string name = arguments.text("catalogue");
+  if (arguments.has("pages")) {
+    return write_pages(name, arguments.text("pages"), arguments.has("force"), console);
+  }
   const auto found = std::ranges::find(kCatalogues, name, &Catalogue::name);
   if (found == std::end(kCatalogues)) {
     std::vector<std::string_view> names;
     for (const Catalogue& one : kCatalogues) names.push_back(one.name);
     return failure(ErrorCode::usage, fmt::format("there is no catalogue '{}'", name),
                    suggestion(name, names));
-  }
-  if (arguments.has("pages")) {
-    return write_pages(name, arguments.text("pages"), arguments.has("force"), console);
   }
   const ordered_json rows = found->rows();
   console.result(console.json ? rows.dump(2) : catalogue_text(rows));
@@ -223,7 +235,8 @@ CommandRow describe_list() {
                          .value = "CATALOGUE",
                          .required = true},
                         {.name = "--pages",
-                         .meaning = "writes a page for every effect to this folder instead",
+                         .meaning = "writes a page for every effect to this folder instead; of "
+                                    "reference, a page for every other catalogue",
                          .value = "DIR"},
                         kForce},
           .example = "flexspline list estimators",
