@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "decimated.hpp"
 #include "extent.hpp"
 #include "figures/diagnosis_figures.hpp"
 #include "numbers.hpp"
@@ -7,7 +8,7 @@
 namespace flexspline::reports {
 namespace {
 
-constexpr std::size_t kPoints = 400;
+constexpr std::size_t kPoints = 4000;
 
 /// Of the recordings kept back, the one with the largest mismatch; else of all.
 const ShownSeries* shown_series(const DiagnosisView& view) {
@@ -25,20 +26,27 @@ Panel panel_of(const DiagnosisView& view, const ShownSeries& series, const std::
   panel.title = title;
   panel.x.label = view.units.motion_label();
   panel.y.label = view.units.effort_label();
-  const auto x = thinned(series.motion, kPoints);
-  const auto y = thinned(series.measured, kPoints);
-  panel.series.push_back({"measured", "line", {"measured", 0}, x, y, {}, {}});
-  panel.series.push_back({name, "line", {"estimator", rank}, x, thinned(model, kPoints), {}, {}});
+  panel.series.push_back(
+      {"measured", "line", {"measured", 0}, series.motion, series.measured, {}, {}});
+  panel.series.push_back({name, "line", {"estimator", rank}, series.motion, model, {}, {}});
+  for (Series& one : panel.series) decimate(one.x, one.y, kPoints);
   return panel;
 }
 
-/// Both models are judged on one scale.
-void share_efforts(std::vector<Panel>& panels) {
-  Extent extent;
+/// Both models are judged on equal axes.
+void share_axes(std::vector<Panel>& panels) {
+  Extent motion;
+  Extent effort;
   for (const Panel& panel : panels) {
-    for (const Series& series : panel.series) extent.take(series.y);
+    for (const Series& series : panel.series) {
+      motion.take(series.x);
+      effort.take(series.y);
+    }
   }
-  for (Panel& panel : panels) panel.y.range = widened(extent.lower, extent.upper, 0.04);
+  for (Panel& panel : panels) {
+    panel.x.range = widened(motion.lower, motion.upper, 0.04);
+    panel.y.range = widened(effort.lower, effort.upper, 0.04);
+  }
 }
 
 }  // namespace
@@ -63,7 +71,7 @@ Figure headline_figure(const DiagnosisView& view) {
     frame.panels.push_back(
         panel_of(view, *series, "with", "with the missing physics", 1, series->after));
   }
-  share_efforts(frame.panels);
+  share_axes(frame.panels);
   figure.frames.push_back(std::move(frame));
   return figure;
 }

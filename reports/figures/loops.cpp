@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "decimated.hpp"
 #include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
@@ -56,8 +57,7 @@ Panel loop_panel(const StudyView& view, const Input& input, const InputRecording
   panel.series.push_back(std::move(measured));
   for (Series& series : simulated) panel.series.push_back(std::move(series));
   for (Series& series : panel.series) {
-    series.x = thinned(series.x, points);
-    series.y = thinned(series.y, points);
+    decimate(series.x, series.y, points);
   }
   keep_measured_in_view(panel, input.units.effort);
   return panel;
@@ -90,7 +90,7 @@ Figure own_loop_figure(const StudyView& view) {
     const std::string id = view.operating_point(input).recording;
     for (const InputRecording& recording : input.recordings) {
       if (recording.id != id || recording.motion.empty()) continue;
-      figure.frames.push_back({{input.title}, {loop_panel(view, input, recording, 400)}});
+      figure.frames.push_back({{input.title}, {loop_panel(view, input, recording, 2000)}});
     }
   }
   return figure;
@@ -111,7 +111,7 @@ Figure loops_figure(const StudyView& view) {
   std::size_t loops = 1;
   for (const Input& input : view.artefacts().inputs) loops += view.places(input).size();
   const std::size_t numbers = kNumbersInLoopPicker / (loops * (view.estimators().size() + 2));
-  const std::size_t points = std::clamp<std::size_t>(numbers, 60, 400);
+  const std::size_t points = std::clamp<std::size_t>(numbers, 120, 2000);
   for (const Input& input : view.artefacts().inputs) {
     for (const InputRecording* recording : view.places(input)) {
       if (recording->motion.empty()) continue;

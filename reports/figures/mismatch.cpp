@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "decimated.hpp"
 #include "figures/diagnosis_figures.hpp"
 #include "numbers.hpp"
 
@@ -65,10 +66,28 @@ Panel panel_of(const ShownSeries& series, const std::vector<double>& x, const st
   return panel;
 }
 
+std::vector<double> left_by(const ShownSeries& series, const std::vector<double>& model) {
+  std::vector<double> residual(std::min(model.size(), series.measured.size()));
+  for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = series.measured[i] - model[i];
+  return residual;
+}
+
+/// The page draws residuals from the same points, so that all lines keep those that any needs.
 ShownSeries lightened(ShownSeries series, std::size_t points) {
+  const std::vector<double> before = left_by(series, series.before);
+  const std::vector<double> after = left_by(series, series.after);
+  std::vector<DrawnCurve> curves;
+  for (const auto* y : {&series.measured, &series.before, &series.after}) {
+    curves.push_back({&series.motion, y});
+  }
+  for (const std::vector<double>* y :
+       std::initializer_list<const std::vector<double>*>{&series.measured, &before, &after}) {
+    curves.push_back({&series.time, y});
+  }
+  const auto keep = seen_points(curves, points);
   for (auto* values : {&series.time, &series.motion, &series.rate, &series.measured, &series.before,
                        &series.after}) {
-    *values = thinned(*values, points);
+    keep_points(*values, keep);
   }
   return series;
 }
@@ -88,7 +107,7 @@ std::vector<Panel> panels_of(const DiagnosisView& view, const ShownSeries& serie
 
 std::size_t points_of(const DiagnosisView& view) {
   const std::size_t lines = std::max<std::size_t>(1, view.series.size());
-  return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 80, 1200);
+  return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 120, 2000);
 }
 
 std::string caption_of(const DiagnosisView& view) {

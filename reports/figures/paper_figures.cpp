@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "decimated.hpp"
 #include "extent.hpp"
 #include "figures/study_figures.hpp"
 #include "numbers.hpp"
@@ -142,10 +143,11 @@ Panel side_panel(const PaperFigure& from, const std::string& side) {
     panel.series.push_back({series.name,
                             series.points ? "points" : "line",
                             role_in(side, series, rank++),
-                            thinned(series.x, 400),
-                            thinned(series.y, 400),
+                            series.x,
+                            series.y,
                             {},
                             {}});
+    if (!series.points) decimate(panel.series.back().x, panel.series.back().y, 2000);
   }
   return panel;
 }
