@@ -11,6 +11,7 @@ namespace flexspline::reports {
 struct Document {
   std::string title;
   std::vector<Section> sections;
+  std::string summary = {};  ///< file of its summary for print, beside the page; empty: none
 };
 
 /// The machine-readable twin, schema flexspline-report/1, with its checksum last.

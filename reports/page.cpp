@@ -172,6 +172,10 @@ std::string page_of(const Document& document) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string(kPolicy) + "\">\n";
   html += "<title>" + escaped(document.title) + "</title>\n<style>" + page_style() + "</style>\n";
   html += "</head>\n<body>\n<main>\n<h1>" + escaped(document.title) + "</h1>\n";
+  if (!document.summary.empty()) {
+    html += "<p class=\"summary\"><a href=\"" + document.summary +
+            "\">Summary on one page, for print</a></p>\n";
+  }
   html += "<noscript><p>The figures need JavaScript; text and tables do not.</p></noscript>\n";
   for (const Section& section : document.sections) {
     html += "<section id=\"" + section.id + "\">\n<h2>" + escaped(section.title) + "</h2>\n" +

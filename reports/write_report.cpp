@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "document_json.hpp"
@@ -11,6 +12,7 @@
 #include "lock_file.hpp"
 #include "page.hpp"
 #include "static_figures.hpp"
+#include "summary_sheet.hpp"
 
 namespace flexspline::reports {
 namespace {
@@ -54,13 +56,20 @@ struct Composed {
   Document document;
   fs::path page;
   std::vector<std::string> left_out{};
+  /// One printed page of it, given the folder of static figures; may be none.
+  std::function<std::string(const fs::path& figures)> summary{};
 };
+
+constexpr const char* kSummary = "summary.html";  // beside the page
 
 Result<Composed> of_diagnosis(const fs::path& folder) {
   const auto view = read_diagnosis(folder);
   if (!view) return tl::unexpected(view.error());
-  return Composed{compose("Diagnosis of " + view->dataset, diagnosis_sections(), *view),
-                  "index.html"};
+  Document document = compose("Diagnosis of " + view->dataset, diagnosis_sections(), *view);
+  document.summary = kSummary;
+  return Composed{std::move(document), "index.html", {}, [view = *view](const fs::path& figures) {
+                    return summary_sheet(view, figures);
+                  }};
 }
 
 Result<Composed> of_trial(const fs::path& folder) {
@@ -125,6 +134,11 @@ Result<WrittenReport> write_report(const fs::path& folder) {
               [&] { return write_file(folder / "report" / "report.json", report_json(document)); })
           .and_then([&] {
             return write_static_figures(folder / "report" / "figures", figures_json(document));
+          })
+          .and_then([&]() -> Result<void> {
+            if (!report->summary) return {};
+            return write_file(page.parent_path() / kSummary,
+                              report->summary(folder / "report" / "figures"));
           })
           .and_then([&] { return write_file(page, page_of(document)); });
   if (!written) return tl::unexpected(in_context(written.error(), "report"));

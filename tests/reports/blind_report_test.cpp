@@ -53,6 +53,19 @@ TEST(DiagnosisReport, TellsTheStoryInOrderFromTheOneArtefact) {
   EXPECT_TRUE(checksum_holds(folder.text("report/report.json")));
 }
 
+TEST(DiagnosisReport, HasASummaryForPrint) {
+  const StudyFolder folder("diagnosis_fixture");
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_TRUE(contains(folder.text("index.html"), "<a href=\"summary.html\">"));
+  const std::string sheet = folder.text("summary.html");
+  EXPECT_TRUE(contains(sheet, "<p class=\"verdict\">Presliding hysteresis was left out:"));
+  EXPECT_TRUE(contains(sheet, "<td>presliding hysteresis</td><td class=\"n\">"));
+  EXPECT_TRUE(contains(sheet, " Nm</td>")) << "a size in a unit";
+  EXPECT_TRUE(contains(sheet, "Record next: "));
+  const bool drawn = contains(sheet, "Figures are drawn by node");
+  EXPECT_TRUE(drawn || contains(sheet, "Figure 3."));
+}
+
 TEST(DiagnosisReport, GivesTheSameBytesAgain) {
   const StudyFolder folder("diagnosis_fixture");
   ASSERT_TRUE(write_report(folder.path()));

@@ -70,7 +70,8 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
   const auto page = write_diagnosis(*diagnosis, arguments.text("out"));
   if (!page) return tl::unexpected(page.error());
-  std::vector<std::string> files = {"diagnosis.json", "index.html", "report", "tables"};
+  std::vector<std::string> files = {"diagnosis.json", "index.html", "summary.html", "report",
+                                    "tables"};
   if (diagnosis->model) files.emplace_back("model.toml");
   if (auto done = output->finish(files); !done) return tl::unexpected(done.error());
   console.result(console.json ? diagnosis_artefact(*diagnosis).dump(2)

@@ -119,7 +119,8 @@ ordered_json list_metrics() {
   ordered_json list = ordered_json::array();
   for (const studies::MetricRow& row : studies::metrics()) {
     const bool effort = row.unit == studies::MetricUnit::effort;
-    list.push_back({{"id", row.id}, {"says", row.meaning}, {"unit", effort ? "torque (force)" : "%"}});
+    list.push_back(
+        {{"id", row.id}, {"says", row.meaning}, {"unit", effort ? "torque (force)" : "%"}});
   }
   return list;
 }

@@ -11,7 +11,7 @@ namespace {
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto page = reports::write_report(arguments.text("dir"));
   if (!page) return tl::unexpected(page.error());
-  const std::vector<std::string> drawn = {"report", "tables", "index.html"};
+  const std::vector<std::string> drawn = {"report", "tables", "index.html", "summary.html"};
   if (auto done = refresh_manifest(arguments.text("dir"), drawn); !done) {
     return tl::unexpected(done.error());
   }

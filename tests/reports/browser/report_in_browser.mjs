@@ -31,6 +31,22 @@ const check = (holds, what) => {
   if (!holds) failures.push(what);
 };
 
+/// The summary is one sheet of A4 with three figures of some size, and nothing is cut off.
+async function checkSummary(page, file, at) {
+  await page.goto(new URL(file, page.url()).href);
+  const print = await page.pdf({ preferCSSPageSize: true, printBackground: true });
+  writeFileSync(join(work, "summary.pdf"), print);
+  const sheets = print.toString("latin1").match(/\/Type \/Page\b/g);
+  check(sheets !== null && sheets.length === 1, `${at}: the summary has ${sheets?.length} sheets`);
+  await page.emulateMedia({ media: "print" });
+  const drawn = await page.locator("figure > svg").evaluateAll((all) =>
+    all.map((one) => one.getBoundingClientRect()).filter((box) => box.width > 600 && box.height > 120).length);
+  check(drawn === 3, `${at}: ${drawn} figures on the summary`);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  check(wide <= (page.viewportSize()?.width ?? 0), `${at}: the summary is ${wide} px wide`);
+  await page.emulateMedia({ media: null });
+}
+
 async function checkFigure(page, figure, at) {
   const id = await figure.getAttribute("data-figure");
   await figure.scrollIntoViewIfNeeded();
@@ -213,6 +229,8 @@ async function visit(browser, report, url, width, scheme, folder) {
     const pdf = await page.pdf({ format: "A4" });
     writeFileSync(join(work, `${report.name}.pdf`), pdf);
     check(pdf.length > 20000, `${at}: the print is empty`);
+    const summary = page.locator("p.summary a");
+    if ((await summary.count()) > 0) await checkSummary(page, await summary.getAttribute("href"), at);
   }
   await page.close();
 }
