@@ -48,6 +48,7 @@ inline constexpr ExitCode kSomethingFailed = 1;
 /// A row of the catalogue of commands.
 struct CommandRow {
   std::string_view id;
+  std::string_view group;  ///< under which --help lists it
   std::string_view summary;
   std::vector<ArgumentInfo> arguments;
   std::string_view example;

@@ -40,13 +40,23 @@ void Console::clear_live() {
   live_shown_ = false;
 }
 
+void Console::end_live() {
+  const std::lock_guard lock(mutex_);
+  clear_live();
+}
+
+void Console::colour_messages(std::string_view when) {
+  if (when != "auto") colour_ = when == "always";
+}
+
 void Console::line(std::string_view text) {
+  const std::lock_guard lock(mutex_);
   clear_live();
   static_cast<void>(put(STDERR_FILENO, fmt::format("{}\n", text)));
 }
 
 void Console::result(std::string_view text) {
-  clear_live();
+  end_live();
   const int failed = put(STDOUT_FILENO, fmt::format("{}\n", text));
   if (failed == 0 || !result_lost_.empty()) return;
   result_lost_ = std::generic_category().message(failed);
@@ -69,8 +79,30 @@ void Console::error(std::string_view text) {
 
 void Console::live(std::string_view text) {
   if (quiet || !terminal_) return;
+  const std::lock_guard lock(mutex_);
+  live_at_ = std::chrono::steady_clock::now();
+  show_live(text);
+}
+
+void Console::live_unless_busy(std::string_view text) {
+  constexpr std::chrono::seconds kBusy(10);
+  const std::lock_guard lock(mutex_);
+  if (std::chrono::steady_clock::now() - live_at_ > kBusy) show_live(text);
+}
+
+void Console::show_live(std::string_view text) {
   static_cast<void>(put(STDERR_FILENO, fmt::format("\r\x1b[K{}", text)));
   live_shown_ = true;
+}
+
+void Console::progress(double share, std::string_view stage) {
+  const std::lock_guard lock(mutex_);
+  reached_ = {share, std::string(stage)};
+}
+
+Reached Console::reached() const {
+  const std::lock_guard lock(mutex_);
+  return reached_;
 }
 
 void keep_standard_files_apart() {

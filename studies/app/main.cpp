@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "flexspline/core/nearest_name.hpp"
 #include "stop_signal.hpp"
 #include "version.hpp"
+#include "work_progress.hpp"
 
 namespace flexspline::app {
 namespace {
@@ -50,11 +52,23 @@ struct Parser {
   std::vector<Slot> slots;
 };
 
-std::vector<Parser> add_commands(CLI::App& app) {
+/// In the order in which a newcomer needs their groups.
+std::vector<CommandRow> in_groups() {
+  constexpr std::array<std::string_view, 6> kGroups = {
+      "Start", "Fit and diagnose", "Models", "Studies", "Simulated test cases", "The program"};
+  std::vector<CommandRow> rows(commands().begin(), commands().end());
+  std::ranges::stable_sort(rows, {}, [&](const CommandRow& row) {
+    return std::ranges::find(kGroups, row.group) - kGroups.begin();
+  });
+  return rows;
+}
+
+std::vector<Parser> add_commands(CLI::App& app, const std::vector<CommandRow>& rows) {
   std::vector<Parser> parsers;
-  for (const CommandRow& row : commands()) {
+  for (const CommandRow& row : rows) {
     Parser& parser = parsers.emplace_back(Parser{&row, nullptr, {}});
     parser.sub = app.add_subcommand(std::string(row.id), std::string(row.summary));
+    parser.sub->group(std::string(row.group));
     parser.sub->footer(fmt::format("Example: {}", row.example));
     for (const ArgumentInfo& info : row.arguments) parser.slots.push_back({&info, {}, nullptr});
     for (Slot& slot : parser.slots) add_argument(*parser.sub, slot);
@@ -81,6 +95,7 @@ Result<void> refuse_empty(const Parser& parser) {
 }
 
 ExitCode run(const Parser& parser, Console& console) {
+  const WorkProgress progress(console, std::string(parser.row->id));
   const auto given = refuse_empty(parser);
   const Result<ExitCode> done = given ? parser.row->run(collect(parser), console)
                                       : Result<ExitCode>(tl::unexpected(given.error()));
@@ -99,8 +114,8 @@ std::string command_help(const std::string& given) {
 
 /// Of what was given, the first that begins with dashes and is no option; empty: none.
 std::string unknown_option(const CommandRow& row, std::span<char* const> given) {
-  std::vector<std::string_view> known = {"--help",    "-h", "--json",   "--quiet",
-                                         "--verbose", "-v", "--version"};
+  std::vector<std::string_view> known = {"--help",    "-h", "--json",    "--quiet",
+                                         "--verbose", "-v", "--version", "--color"};
   for (const ArgumentInfo& info : row.arguments) {
     if (info.name.starts_with('-')) known.push_back(info.name);
   }
@@ -139,15 +154,31 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error, std::span<cha
   return static_cast<ExitCode>(ErrorCode::usage);
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  flexspline import bench.csv --out my-gear          a data set of a bench's file\n"
+    "  flexspline diagnose my-gear --out out/my-gear      what the model lacks, with a page\n"
+    "  flexspline export out/my-gear/model.toml --to mjcf --out mujoco\n"
+    "  flexspline run studies/paper.toml --out out/paper  the study of the paper\n\n"
+    "flexspline COMMAND --help tells more; man flexspline has all of it on one page.";
+
 ExitCode parse_and_run(int argc, char** argv) {
   CLI::App app("Identification and diagnosis of harmonic drive hysteresis", "flexspline");
+  app.footer(kExamples);
+  app.get_formatter()->column_width(16);
   Console console;
   app.set_version_flag("--version", version_text());
   app.add_flag("--json", console.json, "Results as JSON");
   app.add_flag("--quiet", console.quiet, "Errors only on stderr");
   app.add_flag("-v,--verbose", console.verbosity, "More on stderr");
+  app.add_option_function<std::string>(
+         "--color", [&console](const std::string& when) { console.colour_messages(when); },
+         "Colour of messages: auto (on a terminal, without NO_COLOR), always, never")
+      ->type_name("WHEN")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
   app.require_subcommand(1)->fallthrough();
-  const std::vector<Parser> parsers = add_commands(app);
+  const std::vector<CommandRow> rows = in_groups();
+  const std::vector<Parser> parsers = add_commands(app, rows);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -103,6 +103,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_compare() {
   return {.id = "compare",
+          .group = "Fit and diagnose",
           .summary = "Several estimators on one data set, train and hold-out, side by side",
           .arguments = {{.name = "dataset",
                          .meaning = "folder of a data set",

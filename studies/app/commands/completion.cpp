@@ -68,6 +68,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_completion() {
   return {.id = "completion",
+          .group = "The program",
           .summary = "Prints a completion script for bash, zsh or fish",
           .arguments = {{.name = "shell",
                          .meaning = "bash, zsh or fish",

@@ -83,6 +83,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_conceal() {
   return {
       .id = "conceal",
+      .group = "Simulated test cases",
       .summary = "Makes recordings on the virtual bench with a hidden effect, the answer sealed",
       .arguments = {{.name = "bench",
                      .meaning = "bench description",

@@ -21,9 +21,8 @@ using studies::Diagnosis;
 
 studies::DiagnosisProgress progress_on(Console& console) {
   return [&console](double share, std::string_view stage) {
-    const std::string text = fmt::format("{:3.0f} %  {}", 100.0 * share, stage);
-    console.live(text);
-    if (!console.is_terminal()) console.detail(text);
+    console.progress(share, stage);
+    if (!console.is_terminal()) console.detail(fmt::format("{:3.0f} %  {}", 100.0 * share, stage));
   };
 }
 
@@ -83,6 +82,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_diagnose() {
   return {.id = "diagnose",
+          .group = "Fit and diagnose",
           .summary =
               "Where model and recordings differ: locates it, names the missing physics, "
               "models it and proves it on hold-out",

@@ -161,6 +161,7 @@ Result<ExitCode> run(const Arguments&, Console& console) {
 
 CommandRow describe_doctor() {
   return {.id = "doctor",
+          .group = "Start",
           .summary =
               "Checks the installation: versions, processors, memory, and the solvers on "
               "certified problems (5 s)",

@@ -36,6 +36,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_explain() {
   return {.id = "explain",
+          .group = "Models",
           .summary = "An effect's equation, parameters, range, source, and what it leaves out",
           .arguments = {{.name = "effect",
                          .meaning = "id, see flexspline list effects",

@@ -28,9 +28,13 @@ std::string measured(const RigModel& model, const RigModel& exported) {
                      100.0 * error->rms, 100.0 * error->largest);
 }
 
-std::vector<std::string> remarks_on(const RigModel& model, const Carried& carried) {
+std::vector<std::string> remarks_on(const RigModel& model, const Carried& carried,
+                                    Console& console) {
   std::vector<std::string> remarks;
   for (const data::Lost& one : carried.lost) {
+    console.progress(
+        static_cast<double>(remarks.size()) / static_cast<double>(carried.lost.size() + 1),
+        "simulating without " + one.what);
     remarks.push_back(
         fmt::format("not carried: {}: {}{}", one.what, one.why,
                     one.instrument ? "" : " (alone: " + measured(model, one.without) + ")"));
@@ -99,7 +103,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   if (!model) return tl::unexpected(model.error());
   const auto carried = (*exporter)->carry(*model);
   if (!carried) return tl::unexpected(carried.error());
-  auto remarks = remarks_on(*model, *carried);
+  auto remarks = remarks_on(*model, *carried, console);
   if (arguments.has("like")) {
     const auto held_out = held_out_remarks(*model, *carried, arguments.text("like"));
     if (!held_out) return tl::unexpected(held_out.error());
@@ -130,6 +134,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_export() {
   return {
       .id = "export",
+      .group = "Models",
       .summary =
           "A model for other programs (MuJoCo, C, FMI, URDF, SDF, Simulink), with what "
           "the form could not carry and by how much",

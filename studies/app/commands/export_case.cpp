@@ -53,6 +53,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_export_case() {
   return {
       .id = "export-case",
+      .group = "Studies",
       .summary =
           "Cases of a study as JSON (flexspline-case/1): one on the terminal, or all as files",
       .arguments = {{.name = "dir", .meaning = "folder of a run", .value = "DIR", .required = true},

@@ -204,6 +204,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_fit() {
   return {.id = "fit",
+          .group = "Fit and diagnose",
           .summary =
               "One estimator, or the form of a model file, on one data set: DIR/estimate.json, "
               "DIR/model.toml and a report",

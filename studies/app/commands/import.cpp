@@ -308,6 +308,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_import() {
   return {
       .id = "import",
+      .group = "Start",
       .summary =
           "Makes a data set from files as benches write them: says what it found out, how sure "
           "it is, and what it cannot know",

@@ -59,6 +59,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_init() {
   return {.id = "init",
+          .group = "Start",
           .summary = "Writes a commented template: a data set for a rig, a study, or a bench",
           .arguments = {{.name = "kind",
                          .meaning = "rig (a data set), study, or bench (hides an effect)",

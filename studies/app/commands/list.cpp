@@ -227,6 +227,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_list() {
   return {.id = "list",
+          .group = "Models",
           .summary =
               "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths, exporters, "
               "readers, commands",

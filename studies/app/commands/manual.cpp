@@ -54,7 +54,8 @@ std::string page() {
       "gear, says how far the result can be trusted and what physics the model lacks, and draws a "
       "report. Results go to standard output, progress and messages to standard error.\n"
       ".SH OPTIONS\n.TP\n.B \\-\\-json\nresults as JSON\n.TP\n.B \\-\\-quiet\nerrors only on "
-      "standard error\n.TP\n.B \\-v\nmore on standard error\n.TP\n.B \\-\\-version\nprogram, "
+      "standard error\n.TP\n.B \\-v\nmore on standard error\n.TP\n.B \\-\\-color WHEN\ncolour "
+      "of messages: auto, always, never\n.TP\n.B \\-\\-version\nprogram, "
       "commit, compiler and libraries\n.TP\n.B \\-\\-help\nof the program or of a command\n"
       ".SH COMMANDS\n",
       versions().at("flexspline"));
@@ -76,6 +77,7 @@ Result<ExitCode> run(const Arguments&, Console& console) {
 
 CommandRow describe_manual() {
   return {.id = "manual",
+          .group = "The program",
           .summary = "Prints the manual page of all commands, for man(1)",
           .arguments = {},
           .example = "flexspline manual > flexspline.1",

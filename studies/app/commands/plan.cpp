@@ -101,6 +101,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_plan() {
   return {
       .id = "plan",
+      .group = "Studies",
       .summary =
           "What run would do: cases, seeds, time and disk as measured on a few of them; "
           "writes nothing",

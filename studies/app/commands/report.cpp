@@ -27,6 +27,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_report() {
   return {.id = "report",
+          .group = "Fit and diagnose",
           .summary = "Draws the report again from the artefacts alone",
           .arguments = {{.name = "dir",
                          .meaning = "folder of a run, fit, comparison, diagnosis or trial",

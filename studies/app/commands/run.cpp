@@ -94,6 +94,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_run() {
   return {
       .id = "run",
+      .group = "Studies",
       .summary = "Runs a study: plan, cases, comparison, report; goes on where it stopped",
       .arguments =
           {{.name = "study",

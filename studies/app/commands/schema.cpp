@@ -26,6 +26,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_schema() {
   return {.id = "schema",
+          .group = "Models",
           .summary = "Prints the JSON schema of a file format, for editors and checks",
           .arguments = {{.name = "name", .meaning = "study, …", .value = "NAME", .required = true}},
           .example = "flexspline schema study > study.schema.json",

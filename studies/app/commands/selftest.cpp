@@ -101,11 +101,15 @@ Line line_of(const estimators::CertifiedOdeRun& run) {
 }
 
 void run_least_squares(const Choice& choice, Console& console, std::vector<Line>& lines) {
-  for (const auto* problem : estimators::certified_problems()) {
+  const auto& problems = estimators::certified_problems();
+  std::size_t at = 0;
+  for (const auto* problem : problems) {
+    ++at;
     if (!choice.has(problem->collection)) continue;
     for (std::size_t start = 0; start < problem->starts.size(); ++start) {
       for (Backend backend : choice.backends) {
-        console.live(
+        console.progress(
+            0.9 * static_cast<double>(at) / static_cast<double>(problems.size()),
             fmt::format("{} from start {} by {}", problem->id, start + 1, name_of(backend)));
         lines.push_back(line_of(estimators::run_certified(*problem, start, backend)));
       }
@@ -120,7 +124,7 @@ void run_odes(const Choice& choice, Console& console, std::vector<Line>& lines) 
                                 OdeFitMethod::collocation}) {
       const Backend backend = method == OdeFitMethod::collocation ? Backend::ipopt : Backend::ceres;
       if (std::ranges::find(choice.backends, backend) == choice.backends.end()) continue;
-      console.live(fmt::format("{} by {}", problem.name, name_of(method)));
+      console.progress(0.9, fmt::format("{} by {}", problem.name, name_of(method)));
       lines.push_back(line_of(estimators::run_certified(problem, method)));
     }
   }
@@ -221,6 +225,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_selftest() {
   return {
       .id = "selftest",
+      .group = "Simulated test cases",
       .summary = "Fits problems of certified solution with every solver and counts the digits",
       .arguments = {{.name = "--backend", .meaning = "solver", .value = "all|ceres|ipopt"},
                     {.name = "--collection",

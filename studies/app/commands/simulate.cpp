@@ -117,6 +117,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_simulate() {
   return {
       .id = "simulate",
+      .group = "Models",
       .summary = "A trajectory of a model, as a data set",
       .arguments =
           {{.name = "model", .meaning = "model file", .value = "MODEL.toml", .required = true},

@@ -42,6 +42,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_status() {
   return {.id = "status",
+          .group = "Studies",
           .summary = "How far a study is, from any machine: done, running, failed, time left",
           .arguments =
               {{.name = "dir", .meaning = "folder of a run", .value = "DIR", .required = true}},

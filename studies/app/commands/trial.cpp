@@ -129,6 +129,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_trial() {
   return {
       .id = "trial",
+      .group = "Simulated test cases",
       .summary = "Conceals many cases, diagnoses them blind, unseals and scores them",
       .arguments =
           {{.name = "study", .meaning = "trial file", .value = "STUDY.toml", .required = true},

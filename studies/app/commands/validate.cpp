@@ -200,6 +200,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 
 CommandRow describe_validate() {
   return {.id = "validate",
+          .group = "Start",
           .summary =
               "Checks a study, trial, bench, model or data set: everything that is wrong at once, "
               "and what was understood",

@@ -27,8 +27,7 @@ namespace fs = std::filesystem;
 studies::RunSettings settings_of(const fs::path& again, long jobs, Console& console) {
   studies::RunSettings settings = settings_in(again, jobs, console);
   settings.progress = [&console](const studies::Progress& progress) {
-    console.live(
-        fmt::format("{}/{} cases, {:.1f} s", progress.done, progress.total, progress.seconds));
+    console.live(text_of(progress));
   };
   return settings;
 }
@@ -172,6 +171,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 CommandRow describe_verify() {
   return {
       .id = "verify",
+      .group = "Fit and diagnose",
       .summary =
           "Reproducibility check: computes a folder again and compares, bitwise, numerically and "
           "statistically, with a reason for each difference",
