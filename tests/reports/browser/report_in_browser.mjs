@@ -32,8 +32,9 @@ const check = (holds, what) => {
 };
 
 /// The summary is one sheet of A4 with three figures of some size, and nothing is cut off.
-async function checkSummary(page, file, at) {
-  await page.goto(new URL(file, page.url()).href);
+async function checkSummary(from, file, at) {
+  const page = await from.context().newPage();
+  await page.goto(new URL(file, from.url()).href);
   const print = await page.pdf({ preferCSSPageSize: true, printBackground: true });
   writeFileSync(join(work, "summary.pdf"), print);
   const sheets = print.toString("latin1").match(/\/Type \/Page\b/g);
@@ -44,7 +45,7 @@ async function checkSummary(page, file, at) {
   check(drawn === 3, `${at}: ${drawn} figures on the summary`);
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   check(wide <= (page.viewportSize()?.width ?? 0), `${at}: the summary is ${wide} px wide`);
-  await page.emulateMedia({ media: null });
+  await page.close();
 }
 
 async function checkFigure(page, figure, at) {
