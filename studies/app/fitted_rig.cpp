@@ -93,21 +93,29 @@ Result<ordered_json> motor_errors(const RigModel& model, const RecordingSet& set
   return errors;
 }
 
-Result<FittedRig> judged(const RecordingSet& set, const RigModel& model,
-                         const std::vector<ParameterEstimate>& constants,
-                         std::vector<std::string> notes) {
+/// What cannot be simulated along the recordings is not judged, and says so: the fit stands.
+FittedRig judged(const RecordingSet& set, RigModel model,
+                 const std::vector<ParameterEstimate>& constants, std::vector<std::string> notes) {
   auto corrections = estimators::judge_corrections(set, model);
-  if (!corrections) return tl::unexpected(corrections.error());
-  notes.insert(notes.end(), corrections->notes.begin(), corrections->notes.end());
-  const auto errors = motor_errors(corrections->model, set);
-  if (!errors) return tl::unexpected(errors.error());
+  if (corrections) {
+    model = std::move(corrections->model);
+    notes.insert(notes.end(), corrections->notes.begin(), corrections->notes.end());
+  } else {
+    notes.push_back("sizes of the corrections not judged: " + corrections.error().message());
+  }
+  ordered_json errors = {{"train", ordered_json::object()}, {"holdout", ordered_json::object()}};
+  if (auto computed = motor_errors(model, set)) {
+    errors = std::move(*computed);
+  } else {
+    notes.push_back("motor torque not simulated: " + computed.error().message());
+  }
   ordered_json origin = ordered_json::object();
-  for (const auto& [name, one] : corrections->model.origin) origin[name] = name_of(one);
-  return FittedRig{std::move(corrections->model),
-                   {{"origin", std::move(origin)},
-                    {"parameters", data::to_json(constants)},
-                    {"motor_torque_error", *errors},
-                    {"notes", std::move(notes)}}};
+  for (const auto& [name, one] : model.origin) origin[name] = name_of(one);
+  return {std::move(model),
+          {{"origin", std::move(origin)},
+           {"parameters", data::to_json(constants)},
+           {"motor_torque_error", std::move(errors)},
+           {"notes", std::move(notes)}}};
 }
 
 std::string constant_line(const ordered_json& one, const ordered_json& origin) {
@@ -130,8 +138,8 @@ Result<FittedRig> fitted_rig(const RecordingSet& set, const ordered_json& estima
   return judged(set, fit->model, fit->parameters, std::move(fit->notes));
 }
 
-Result<FittedRig> fitted_servo(const RecordingSet& set, const DriveSpec& drive,
-                               const ordered_json& estimate) {
+FittedRig fitted_servo(const RecordingSet& set, const DriveSpec& drive,
+                       const ordered_json& estimate) {
   RigModel model{Rig::servo, drive};
   mark_servo(set, estimate, model);
   return judged(set, model, {}, {});

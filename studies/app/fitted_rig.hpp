@@ -18,12 +18,12 @@ struct FittedRig {
 };
 
 /// Of an estimate of the torsion law, whose JSON it is. The set is marked with what was held out.
-/// Errors: those of complete_rig and judge_corrections.
+/// Errors: those of complete_rig.
 Result<FittedRig> fitted_rig(const RecordingSet& set, const nlohmann::ordered_json& estimate);
 
 /// Of a servo's drive.
-Result<FittedRig> fitted_servo(const RecordingSet& set, const DriveSpec& drive,
-                               const nlohmann::ordered_json& estimate);
+FittedRig fitted_servo(const RecordingSet& set, const DriveSpec& drive,
+                       const nlohmann::ordered_json& estimate);
 
 /// DIR/model.toml, and DIR/estimate.json with `rig` in it. Errors: cannot_write.
 Result<void> write_fit(const std::filesystem::path& folder, nlohmann::ordered_json& estimate,

@@ -157,14 +157,13 @@ Result<ExitCode> fit_servo_set(RecordingSet set, const estimators::GivenModel& m
   const auto fit = estimators::fit_servo(set, model, *settings);
   if (!fit) return tl::unexpected(fit.error());
   ordered_json estimate = judged(*fit, set, *settings);
-  const auto rig = fitted_servo(set, fit->drive, estimate);
-  if (!rig) return tl::unexpected(rig.error());
+  const FittedRig rig = fitted_servo(set, fit->drive, estimate);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (auto written = write_fit(folder, estimate, *rig); !written) {
+  if (auto written = write_fit(folder, estimate, rig); !written) {
     return tl::unexpected(written.error());
   }
-  console.result(console.json ? estimate.dump(2) : summary_of(estimate) + text_of(*rig));
+  console.result(console.json ? estimate.dump(2) : summary_of(estimate) + text_of(rig));
   return kDone;
 }
 

@@ -90,24 +90,42 @@ LoopProspect prospect_of(const Estimate& estimate, double amplitude, double freq
           mean_half_width(estimate)};
 }
 
-/// Rms of what the fit leaves, in the torque's unit.
-Result<double> residual_of(const std::vector<TorsionRecord>& records, const ModelSpec& model) {
-  double squares = 0.0;
-  double count = 0.0;
-  for (const TorsionRecord& one : records) {
+/// The recorded motions with the torque of the fit.
+Result<std::vector<TorsionRecord>> simulated(std::vector<TorsionRecord> records,
+                                             const ModelSpec& model) {
+  for (TorsionRecord& one : records) {
     const auto smooth = reconstruct(one);
     if (!smooth) return tl::unexpected(in_context(smooth.error(), one.id));
-    const auto torque = simulate_torque(model, smooth->motion);
+    auto torque = simulate_torque(model, smooth->motion);
     if (!torque) return tl::unexpected(in_context(torque.error(), one.id));
-    for (std::size_t i = 0; i < torque->size(); ++i) {
-      squares += std::pow((*torque)[i] - one.effort[i], 2);
+    one.effort = std::move(*torque);
+  }
+  return records;
+}
+
+/// Rms of what the fit leaves, in the torque's unit.
+double residual_of(const std::vector<TorsionRecord>& recorded,
+                   const std::vector<TorsionRecord>& simulated) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t r = 0; r < recorded.size(); ++r) {
+    for (std::size_t i = 0; i < recorded[r].effort.size(); ++i) {
+      squares += std::pow(simulated[r].effort[i] - recorded[r].effort[i], 2);
       count += 1.0;
     }
   }
   return std::sqrt(squares / count);
 }
 
-Result<TorsionRecord> loop(const ModelSpec& model, double amplitude, double frequency, double noise,
+void add_noise(std::vector<TorsionRecord>& records, double noise) {
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal(0.0, noise);
+  for (TorsionRecord& one : records) {
+    for (double& torque : one.effort) torque += normal(random);
+  }
+}
+
+Result<TorsionRecord> loop(const ModelSpec& model, double amplitude, double frequency,
                            bool linear) {
   Motion motion;
   const double w = 2.0 * std::numbers::pi * frequency;
@@ -120,9 +138,6 @@ Result<TorsionRecord> loop(const ModelSpec& model, double amplitude, double freq
   }
   auto torque = simulate_torque(model, motion);
   if (!torque) return tl::unexpected(torque.error());
-  std::mt19937_64 random(kSeed);
-  std::normal_distribution<double> normal(0.0, noise);
-  for (double& value : *torque) value += normal(random);
   TorsionRecord record{.id = "candidate",
                        .split = Split::train,
                        .amplitude = amplitude,
@@ -178,22 +193,30 @@ Result<LoopPlan> plan_loops(const RecordingSet& set, const std::function<void(do
   if (!records) return tl::unexpected(records.error());
   const auto known = fit(*records);
   if (!known) return tl::unexpected(known.error());
-  const auto noise = residual_of(*records, known->model);
-  if (!noise) return tl::unexpected(noise.error());
-  LoopPlan plan{prospect_of(*known, 0.0, 0.0), known->identifiability.says, *noise, {}};
+  const auto likely = simulated(*records, known->model);
+  if (!likely) return tl::unexpected(likely.error());
+  const double noise = residual_of(*records, *likely);
+  const auto prospect = [&](std::vector<TorsionRecord> all, double amplitude,
+                            double frequency) -> Result<LoopProspect> {
+    add_noise(all, noise);
+    return fit(all).map([&](const Estimate& e) { return prospect_of(e, amplitude, frequency); });
+  };
+  const auto as_recorded = prospect(*likely, 0.0, 0.0);
+  if (!as_recorded) return tl::unexpected(as_recorded.error());
+  LoopPlan plan{*as_recorded, known->identifiability.says, noise, {}};
   const auto candidates = candidates_beside(*records);
   for (const Candidate& one : candidates) {
     if (progress) {
       progress((1.0 + static_cast<double>(plan.candidates.size())) /
                (1.0 + static_cast<double>(candidates.size())));
     }
-    auto added = loop(known->model, one.amplitude, one.frequency, *noise, records->front().linear);
+    auto added = loop(known->model, one.amplitude, one.frequency, records->front().linear);
     if (!added) return tl::unexpected(added.error());
-    auto all = *records;
+    auto all = *likely;
     all.push_back(std::move(*added));
-    const auto with = fit(all);
+    const auto with = prospect(std::move(all), one.amplitude, one.frequency);
     if (!with) return tl::unexpected(in_context(with.error(), "with one loop more"));
-    plan.candidates.push_back(prospect_of(*with, one.amplitude, one.frequency));
+    plan.candidates.push_back(*with);
   }
   std::ranges::stable_sort(plan.candidates, more_telling);
   return plan;

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "flexspline/data/dataset.hpp"
 #include "flexspline/data/hidden_bench.hpp"
 #include "flexspline/studies/next_loops.hpp"
+#include "source_dir.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -26,13 +28,17 @@ RecordingSet recorded(std::vector<std::pair<double, double>> loops) {
   return made ? std::move(made->measured) : RecordingSet{};
 }
 
-// One loop tells nothing of h, and its repetition, another frequency or amplitude is the remedy.
+// One loop tells nothing of h; another frequency or amplitude is the remedy.
 TEST(NextLoops, OfOneLoopOneMoreMakesHIdentifiable) {
-  const auto plan = plan_loops(recorded({{1.0, 0.1}}));
+  auto set = data::load_dataset(std::string(FLEXSPLINE_SOURCE_DIR) + "/docs/examples/locked-gear");
+  ASSERT_TRUE(set) << set.error().message();
+  std::erase_if(set->recordings, [](const Recording& one) { return one.id != "slow"; });
+  const auto plan = plan_loops(*set);
   ASSERT_TRUE(plan) << plan.error().message();
   EXPECT_FALSE(plan->recorded.tells_h);
   ASSERT_FALSE(plan->candidates.empty());
   const LoopProspect& best = plan->candidates.front();
+  SCOPED_TRACE(plan->says);
   EXPECT_TRUE(best.tells_h);
   EXPECT_GT(best.h_half_width, 0.0);
   for (std::size_t i = 1; i < plan->candidates.size(); ++i) {

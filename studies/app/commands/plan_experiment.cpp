@@ -42,7 +42,8 @@ std::string text_of(const RecordingSet& set, const LoopPlan& plan,
   text += diagnosis.next_experiment
               ? fmt::format("\n  record next: {}", diagnosis.next_experiment->says)
               : "\n  no recording is proposed: no two causes of the torsion equation are left";
-  text += fmt::format("\nh: as recorded, {}: {}", band_text(plan.recorded), plan.says);
+  text += fmt::format("\nh in these recordings: {}\n  {:<37} {}", plan.says,
+                      "expected of these motions", band_text(plan.recorded));
   for (std::size_t i = 0; i < std::min(kShown, plan.candidates.size()); ++i) {
     text += fmt::format("\n  with a sine of {:<22} {}", loop_text(set, plan.candidates[i]),
                         band_text(plan.candidates[i]));
@@ -107,8 +108,8 @@ CommandRow describe_plan_experiment() {
   return {.id = "plan-experiment",
           .group = "Fit and diagnose",
           .summary =
-              "Which recording to take next: to tell causes apart, and to identify h; writes "
-              "nothing",
+              "Which recording to take next: to separate the causes that are left, and to identify "
+              "h; writes nothing",
           .arguments = {{.name = "dataset",
                          .meaning = "folder of a data set",
                          .value = "DATASET",

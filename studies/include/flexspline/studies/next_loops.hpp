@@ -18,18 +18,18 @@ struct LoopProspect {
 };
 
 struct LoopPlan {
-  LoopProspect recorded;                 ///< as it is; no loop
-  std::string says;                      ///< the verdict on h as it is
+  LoopProspect recorded;                 ///< of the motions as recorded; no loop
+  std::string says;                      ///< the verdict on h in the recordings themselves
   double torque_noise = 0.0;             ///< rms that is assumed, Nm (N)
   std::vector<LoopProspect> candidates;  ///< the most telling first
 };
 
 /// Sines of a quarter to all of the largest amplitude recorded, as fast as recorded, half, a
-/// quarter and an eighth as fast, but for those recorded already: each is simulated by what static
-/// regression finds in all recordings, with noise of the size of its residual, and fitted together
-/// with them. Expected, if the gear is like that fit. progress: the share that is done.
-/// Errors: bad_data on rigs whose torsion is not what is driven (free, servo, a joint that
-/// travels); those of the fit.
+/// quarter and an eighth as fast, but for those recorded already. Everything is simulated by what
+/// static regression finds in the recordings, with noise of the size of its residual: the motions
+/// that are recorded, and those with one sine more. Expected, if the gear is like that fit.
+/// progress: the share that is done. Errors: bad_data on rigs whose torsion is not what is driven
+/// (free, servo, a joint that travels); those of the fit.
 Result<LoopPlan> plan_loops(const RecordingSet& set,
                             const std::function<void(double)>& progress = {});
 
