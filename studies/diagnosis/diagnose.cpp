@@ -37,16 +37,15 @@ bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& li
   return h.over_noise() > limits.beyond_noise && own > limits.beyond_size * frame.torque_range;
 }
 
-Verdict verdict_of(const Frame& frame, const Selection& s, const Diagnosis& d,
+Verdict verdict_of(const Frame& frame, const Selection& s,
+                   const std::optional<RippleFinding>& ripple, const Diagnosis& d,
                    const Limits& limits) {
-  const bool left = s.remainder || !frame.incidents.empty() ||
+  const bool left = s.remainder || !frame.incidents.empty() || left_unnamed(s, limits) != nullptr ||
                     is_beyond_noise(frame, d.holdout, limits) ||
                     (d.cross_validated && is_beyond_noise(frame, *d.cross_validated, limits));
-  if (s.accepted.empty()) {
-    const bool something = left || left_unnamed(s, limits) != nullptr;
-    return something ? Verdict::unexplained : Verdict::adequate;
-  }
-  return left ? Verdict::partly_explained : Verdict::explained;
+  const bool named = !s.accepted.empty() || (ripple && ripple->name);
+  if (named) return left ? Verdict::partly_explained : Verdict::explained;
+  return left ? Verdict::unexplained : Verdict::adequate;
 }
 
 /// What a model file says of causes that are in the model, but too small to be named.
@@ -154,7 +153,8 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   d.series = spelled_series(frame, selection, proof);
   const auto judged = judge_held_out(all, holdout, *finding, d);
   if (!judged) return tl::unexpected(judged.error());
-  d.verdict = verdict_of(frame, selection, d, limits);
+  const auto ripple = find_ripple(frame, selection, limits);
+  d.verdict = verdict_of(frame, selection, ripple, d, limits);
   auto specification = specify(frame, selection.final.fit.model, remarks_on(selection));
   d.model = std::move(specification.model);
   d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
@@ -162,7 +162,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   d.mismatch = spelled_mismatch(frame, selection, limits);
   d.confusable = spelled_confusable(frame, selection);
   d.tried = spelled_trials(selection, limits);
-  spell_ripple(frame, selection, limits, d);
+  if (ripple) spell_ripple(frame, selection, *ripple, d);
   name_in_units(d);
   d.moved = spelled_moves(frame, selection);
   d.next_experiment = next_experiment(frame, selection);

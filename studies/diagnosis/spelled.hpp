@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnosis/prove.hpp"
+#include "diagnosis/ripple_finding.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
 namespace flexspline::studies {
@@ -16,11 +17,8 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& selection
 /// it is largest.
 std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& selection,
                                        const Limits& limits);
-/// A ripple over the motor's angle that no cause took: its coordinate, and a note. Where the
-/// catalogue has a cause of its order for joints that travel, and a recording confirms the order
-/// that the others tell, that cause is named, however small against the torque: of the fast
-/// changes in steady strokes it has to be a quarter.
-void spell_ripple(const Frame& frame, const Selection& selection, const Limits& limits,
+/// A ripple over the motor's angle: a note; its coordinate and its name where no cause took it.
+void spell_ripple(const Frame& frame, const Selection& selection, const RippleFinding& finding,
                   Diagnosis& diagnosis);
 /// |cosine| between what the causes of the first round change in the prediction.
 std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& selection);

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
-#include "diagnosis/ripple.hpp"
 #include "diagnosis/spelled.hpp"
 
 namespace flexspline::studies {
@@ -20,39 +18,8 @@ std::string in_words(const Frame& frame, const Ripple& ripple) {
       100.0 * ripple.amplitude / frame.torque_range);
 }
 
-/// The cause that the catalogue has for a ripple of this order in a joint's torque, and the others
-/// over the motor's angle, as alternatives: what lies between the motor and the sensor turns the
-/// phase with the speed and its sign, so that the phase tells no friction from another torque.
-struct Name {
-  const CauseRow* row = nullptr;
-  const CauseForm* form = nullptr;
-  double order = 0.0;
-  std::vector<std::string> others;
-};
-
-Name name_of(const Frame& frame, const Ripple& ripple) {
-  Name name;
-  name.order = std::round(ripple.order);
-  if (std::abs(ripple.order - name.order) > resolved_order(frame)) return {};
-  for (const CauseRow& row : causes()) {
-    if (row.coordinate != kCoordinate) continue;
-    const auto fits = [&](const CauseForm& form) {
-      return form.ripples != nullptr && form.ripples(name.order);
-    };
-    const auto here = forms_on(row, frame);
-    const auto form = std::ranges::find_if(here, [&](auto* f) { return fits(*f); });
-    if (name.row == nullptr && form != here.end()) {
-      name.row = &row;
-      name.form = *form;
-    } else if (std::ranges::any_of(row.forms, fits)) {
-      name.others.emplace_back(row.id);
-    }
-  }
-  return name;
-}
-
-Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleProof& proof,
-               const Name& name) {
+Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleName& name) {
+  const RippleProof& proof = name.proof;
   Cause cause;
   cause.effect = name.row->id;
   cause.probability = 1.0 / static_cast<double>(1 + name.others.size());
@@ -88,8 +55,8 @@ Mismatch mismatch_of(const Frame& frame, const Ripple& ripple) {
 }
 
 // Among all of the torque it is noise; the table says where it is not.
-void add_to_tried(const Ripple& ripple, const RippleProof& proof, const CauseRow& row,
-                  Diagnosis& d) {
+void add_to_tried(const Ripple& ripple, const RippleName& name, Diagnosis& d) {
+  const CauseRow& row = *name.row;
   std::erase_if(d.tried, [&](const TriedCandidate& t) { return t.effect == row.id; });
   const int round =
       d.tried.empty() ? 0 : std::ranges::max(d.tried, {}, &TriedCandidate::round).round;
@@ -97,38 +64,24 @@ void add_to_tried(const Ripple& ripple, const RippleProof& proof, const CauseRow
                      .round = round + 1,
                      .misfit_removed = ripple.share,
                      .delta_bic = -ripple.statistic,
-                     .holdout_rmse_ratio = proof.ratio,
+                     .holdout_rmse_ratio = name.proof.ratio,
                      .outcome = "accepted: by the fast changes in constant-velocity segments"});
-}
-
-void name_ripple(const Frame& frame, const Selection& s, const Limits& limits, const Ripple& ripple,
-                 Diagnosis& d) {
-  const Name name = name_of(frame, ripple);
-  if (name.row == nullptr || ripple.share < limits.ripple_share) return;
-  const auto proof = prove_ripple(frame, s.final);
-  if (!proof || proof->statistic < limits.named_gain) return;
-  d.causes.push_back(cause_of(frame, ripple, *proof, name));
-  add_to_tried(ripple, *proof, *name.row, d);
-  if (d.verdict == Verdict::adequate) d.verdict = Verdict::explained;
-  if (d.verdict == Verdict::unexplained) d.verdict = Verdict::partly_explained;
 }
 
 }  // namespace
 
-void spell_ripple(const Frame& frame, const Selection& s, const Limits& limits, Diagnosis& d) {
-  const auto ripple = ripple_left(frame, s.final);
-  if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.remainder_share) {
-    return;
-  }
-  d.notes.push_back(in_words(frame, *ripple) + "; it is not part of the model");
-  const bool named = std::ranges::any_of(
-      s.accepted, [](const Accepted& a) { return a.trial.cause.row->coordinate == kCoordinate; });
-  if (named) return;
+void spell_ripple(const Frame& frame, const Selection& s, const RippleFinding& finding,
+                  Diagnosis& d) {
+  const Ripple& ripple = finding.ripple;
+  d.notes.push_back(in_words(frame, ripple) + "; it is not part of the model");
+  if (finding.taken) return;
   std::erase_if(d.mismatch, [](const Mismatch& m) { return m.coordinate == kCoordinate; });
   const auto behind_causes = std::min(d.mismatch.size(), s.accepted.size());
   d.mismatch.insert(d.mismatch.begin() + static_cast<std::ptrdiff_t>(behind_causes),
-                    mismatch_of(frame, *ripple));
-  name_ripple(frame, s, limits, *ripple, d);
+                    mismatch_of(frame, ripple));
+  if (!finding.name) return;
+  d.causes.push_back(cause_of(frame, ripple, *finding.name));
+  add_to_tried(ripple, *finding.name, d);
 }
 
 }  // namespace flexspline::studies

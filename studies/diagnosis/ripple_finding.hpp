@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/ripple.hpp"
+#include "diagnosis/selection.hpp"
+
+namespace flexspline::studies {
+
+/// The cause that the catalogue has for a ripple of this order in a joint's torque, and the others
+/// over the motor's angle, as alternatives: what lies between the motor and the sensor turns the
+/// phase with the speed and its sign, so that the phase tells no friction from another torque.
+struct RippleName {
+  const CauseRow* row = nullptr;
+  const CauseForm* form = nullptr;
+  double order = 0.0;
+  std::vector<std::string> others;
+  RippleProof proof;
+};
+
+/// A ripple over the motor's angle that counts.
+struct RippleFinding {
+  Ripple ripple;
+  bool taken = false;              ///< a cause of the model has that coordinate
+  std::optional<RippleName> name;  ///< where it is named
+};
+
+/// The ripple that no cause took. Named where the catalogue has a cause of its order for joints
+/// that travel, and a recording confirms the order that the others tell, however small it is
+/// against the torque: of the fast changes in steady strokes it has to be a quarter.
+std::optional<RippleFinding> find_ripple(const Frame& frame, const Selection& selection,
+                                         const Limits& limits);
+
+}  // namespace flexspline::studies
