@@ -6,6 +6,7 @@
 #include "flexspline/data/hidden_bench.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/studies/diagnosis.hpp"
+#include "printed_name.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -85,11 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
         TruthCase{Rig::locked, "inertia_torque", "inertia", "inertia_torque", "inertia"},
         TruthCase{Rig::locked, "backlash", "half_gap", "lost_motion", "half_gap"},
         TruthCase{Rig::locked, "torque_sensor_offset", "offset", "torque_sensor_offset", "offset"}),
-    [](const auto& param) {
-      std::ostringstream name;
-      name << param.param;
-      return name.str();
-    });
+    PrintedName());
 
 }  // namespace
 }  // namespace flexspline::studies

@@ -14,6 +14,7 @@
 #include "flexspline/data/hidden_bench.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/studies/diagnosis.hpp"
+#include "printed_name.hpp"
 #include "study_file.hpp"
 
 namespace flexspline::studies {
@@ -175,11 +176,7 @@ INSTANTIATE_TEST_SUITE_P(
                     ModelCase{.rig = Rig::specimen,
                               .hidden = "presliding_hysteresis",
                               .expected = "presliding_hysteresis"}),
-    [](const auto& param) {
-      std::ostringstream name;
-      name << param.param;
-      return name.str();
-    });
+    PrintedName());
 
 }  // namespace
 }  // namespace flexspline::studies
