@@ -131,6 +131,12 @@ std::vector<Quantity> sensed_channels(const RecordingSet& set) {
   return list;
 }
 
+bool is_position(Quantity quantity) {
+  using enum Quantity;
+  return quantity == motor_angle || quantity == load_angle || quantity == angle ||
+         quantity == torsion || quantity == displacement;
+}
+
 const std::vector<double>* held_motion(const RecordingSet& set, const Recording& recording) {
   using enum Quantity;
   if (set.rig == Rig::locked) return recording.find(motor_angle);

@@ -39,6 +39,9 @@ std::vector<Quantity> telling_channels(const RecordingSet& set);
 /// Those of them that a sensor measures: a duty cycle is what a controller says, and it may hold.
 std::vector<Quantity> sensed_channels(const RecordingSet& set);
 
+/// An angle or a displacement: what a bench may hold still.
+bool is_position(Quantity quantity);
+
 /// The channel that the rig's position loop moves: the motor's, the load's or the specimen's.
 const std::vector<double>* held_motion(const RecordingSet& set, const Recording& recording);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
@@ -70,6 +71,62 @@ inline void hold(RecordingSet& set, Draw& draw, Quantity quantity, bool at_zero)
               at_zero ? 0.0 : values[first]);
 }
 
+inline double value_at(const std::vector<double>& time, const std::vector<double>& values,
+                       double instant) {
+  const auto next = std::ranges::upper_bound(time, instant);
+  if (next == time.begin()) return values.front();
+  if (next == time.end()) return values.back();
+  const auto k = static_cast<std::size_t>(next - time.begin());
+  const double share = (instant - time[k - 1]) / (time[k] - time[k - 1]);
+  return values[k - 1] + share * (values[k] - values[k - 1]);
+}
+
+/// The rate of the fastest sine of a set, rad/s.
+inline double fastest_sine(const RecordingSet& set) {
+  double most = 0.0;
+  for (const Recording& recording : set.recordings) {
+    if (recording.excitation == "sine") most = std::max(most, *recording.frequency_hz);
+  }
+  return 2.0 * std::numbers::pi * most;
+}
+
+/// The effort as a sensor gives it that is delayed.
+inline void delay_effort(RecordingSet& set, double by) {
+  for (Recording& r : set.recordings) {
+    auto& values = r.channels.at(effort_of(set));
+    const std::vector<double> before = values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = value_at(r.time, before, r.time[i] - by);
+    }
+  }
+}
+
+/// The effort behind a low pass of first order.
+inline void filter_effort(RecordingSet& set, double time_constant) {
+  for (Recording& r : set.recordings) {
+    auto& values = r.channels.at(effort_of(set));
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const double share = 1.0 - std::exp((r.time[i - 1] - r.time[i]) / time_constant);
+      values[i] = values[i - 1] + share * (values[i] - values[i - 1]);
+    }
+  }
+}
+
+/// The effort by a clock that is faster by a share; the recording ends where it does.
+inline void let_effort_drift(RecordingSet& set, double share) {
+  for (Recording& r : set.recordings) {
+    auto& values = r.channels.at(effort_of(set));
+    const std::vector<double> before = values;
+    const double start = r.time.front();
+    const auto instant = [&](std::size_t i) { return start + (1.0 + share) * (r.time[i] - start); };
+    std::size_t kept = 0;
+    while (kept < values.size() && instant(kept) <= r.time.back()) ++kept;
+    for (std::size_t i = 0; i < kept; ++i) values[i] = value_at(r.time, before, instant(i));
+    r.time.resize(kept);
+    for (auto& [quantity, list] : r.channels) list.resize(kept);
+  }
+}
+
 inline const std::vector<Damage>& damages() {
   using enum Quantity;
   constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -86,6 +143,12 @@ inline const std::vector<Damage>& damages() {
       {"radians taken for degrees", any,
        [](RecordingSet& s, Draw&) {
          scale(s, {motor_angle, load_angle, torsion}, 1 / kDegrees);
+       }},
+      {"the output's angle taken for the motor's", drives,
+       [](RecordingSet& s, Draw&) { scale(s, {motor_angle}, 1 / s.constants.at("gear_ratio")); }},
+      {"a torque of the motor's side taken for the output's", drives,
+       [](RecordingSet& s, Draw&) {
+         scale(s, {transmitted_torque}, 1 / s.constants.at("gear_ratio"));
        }},
       {"mNm taken for Nm", drives,
        [](RecordingSet& s, Draw&) { scale(s, {transmitted_torque}, 1e3); }},
@@ -137,6 +200,29 @@ inline const std::vector<Damage>& damages() {
            const double step = (high - low) / drawn_between(draw, 6.0, 18.0);
            for (double& value : values) value = step * std::round(value / step);
          }
+       }},
+      {"a late torque", any,
+       [](RecordingSet& s, Draw& draw) {
+         delay_effort(s, drawn_between(draw, 0.3, 1.0) / fastest_sine(s));
+       }},
+      {"a filtered torque", any,
+       [](RecordingSet& s, Draw& draw) {
+         filter_effort(s, drawn_between(draw, 0.3, 1.0) / fastest_sine(s));
+       }},
+      {"a torque by a clock that drifts", any,
+       [](RecordingSet& s, Draw& draw) {
+         const double side = drawn_between(draw, 0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+         let_effort_drift(s, side * drawn_between(draw, 0.015, 0.06));
+       }},
+      {"a recording by a clock that is behind", any,
+       [](RecordingSet& s, Draw& draw) {
+         Recording& late = drawn_recording(s, draw);
+         Recording& other = s.recordings[&late == &s.recordings[0] ? 1 : 0];
+         late.start_s = other.start_s + drawn_between(draw, 0.1, 0.8) * other.time.back();
+       }},
+      {"a sine that is none", any,
+       [](RecordingSet& s, Draw&) {
+         for (Recording& recording : s.recordings) recording.excitation = "sine";
        }},
       {"one recording twice", any,
        [](RecordingSet& s, Draw& draw) {

@@ -72,7 +72,8 @@ TEST_F(CommandLine, InitWritesAStudyAndABenchThatAreValidAsTheyStand) {
     const Finished check = call("validate " + path(kind) + ".toml");
     EXPECT_EQ(check.code, 0) << check.output;
   }
-  EXPECT_THAT(call("plan --list " + path("study.toml")).result, HasSubstr("h_even--trajectory--r0"));
+  EXPECT_THAT(call("plan --list " + path("study.toml")).result,
+              HasSubstr("h_even--trajectory--r0"));
 }
 
 TEST_F(CommandLine, InitWritesADataSetForEveryRigThatIsValidOnceItsTableIsThere) {

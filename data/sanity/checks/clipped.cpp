@@ -11,7 +11,8 @@ namespace {
 
 using Series = std::vector<double>;
 
-constexpr std::size_t kLeastSamples = 8;  // exactly at an extreme, some of them in a row
+constexpr std::size_t kLeastSamples = 8;   // exactly at an extreme, some of them in a row
+constexpr std::size_t kLeastTurning = 24;  // of what moves: it dwells at an extreme as it turns
 constexpr std::size_t kLeastRow = 4;
 constexpr double kAgainstLevels = 4.0;  // times as many as at any of the levels next to it
 constexpr std::size_t kLevels = 12;
@@ -35,12 +36,6 @@ AtExtreme at(const Series& values, double value) {
     if (row > found.row) found.row = row, found.first = i + 1 - row;
   }
   return found;
-}
-
-bool is_angle(Quantity quantity) {
-  using enum Quantity;
-  return quantity == motor_angle || quantity == load_angle || quantity == angle ||
-         quantity == torsion || quantity == displacement;
 }
 
 /// Most samples at one of the levels below (above) the extreme; 0 would mean a channel without any.
@@ -73,8 +68,9 @@ double partner_moves(const ObservedSet& all, const Recording& recording, Quantit
 
 bool is_clipped(const ObservedSet& all, const Recording& recording, Quantity quantity,
                 const Series& values, const AtExtreme& extreme, bool top) {
-  if (extreme.count < kLeastSamples || extreme.row < kLeastRow) return false;
-  if (is_angle(quantity) && extreme.rows < 2) return false;  // what sticks stands once
+  const std::size_t least = is_position(quantity) ? kLeastTurning : kLeastSamples;
+  if (extreme.count < least || extreme.row < kLeastRow) return false;
+  if (is_position(quantity) && extreme.rows < 2) return false;  // what sticks stands once
   const auto beside = static_cast<double>(at_levels_beside(values, extreme.value, top));
   if (static_cast<double>(extreme.count) < kAgainstLevels * beside) return false;
   return partner_moves(all, recording, quantity, extreme) > kPartnerMoves;

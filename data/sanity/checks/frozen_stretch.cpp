@@ -15,6 +15,7 @@ constexpr double kLongerThan = 6.0;     // times the longest but few runs of the
 constexpr double kJump = 6.0;           // times the usual step of the channel
 constexpr double kTurns = 0.3;          // of the samples
 constexpr double kPartnerMoves = 0.15;  // of its range, while the channel stands still
+constexpr double kPartnerFar = 0.3;     // of it, while a torque does: no torque sticks at one value
 
 struct Run {
   std::size_t first = 0;
@@ -60,13 +61,13 @@ bool jumps_after(const Series& values, const Run& run) {
   return std::abs(values[next] - values[run.first]) > kJump * median_of(steps);
 }
 
-// A channel that turns at every other sample has noise, which never stands still.
-bool is_noisy(const Series& values) {
+// A channel that turns at every other sample outside the run has noise, which never stands still.
+bool is_noisy(const Series& values, const Run& run) {
   std::size_t turns = 0;
   for (std::size_t i = 2; i < values.size(); ++i) {
     turns += (values[i] - values[i - 1]) * (values[i - 1] - values[i - 2]) < 0.0 ? 1 : 0;
   }
-  return static_cast<double>(turns) > kTurns * static_cast<double>(values.size());
+  return static_cast<double>(turns) > kTurns * static_cast<double>(values.size() - run.count);
 }
 
 bool is_long(const Longest& longest, std::size_t samples) {
@@ -105,8 +106,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
       const Run& run = longest.run;
       if (!is_long(longest, values->size()) || is_marked(recording, run)) continue;
       const double moved = partner_moves(all, recording, quantity, run);
-      const bool noisy = longest.usual == 1 && is_noisy(*values);
-      if (!noisy && (moved < kPartnerMoves || !jumps_after(*values, run))) continue;
+      const bool never_stands =
+          longest.usual == 1 &&
+          (is_noisy(*values, run) || (!is_position(quantity) && moved > kPartnerFar));
+      if (!never_stands && (moved < kPartnerMoves || !jumps_after(*values, run))) continue;
       const double from = recording.time[run.first];
       const double to = recording.time[run.first + run.count - 1];
       list.push_back(
