@@ -45,7 +45,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libflexspline-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "coinor-libipopt-dev, libboost-dev, libceres-dev, libeigen3-dev, libexpected-dev, libfmt-dev, \
-libhdf5-dev, libmatio-dev, libnetcdf-dev, libssl-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, \
+libhdf5-dev, liblz4-dev, libmatio-dev, libnetcdf-dev, libsqlite3-dev, libssl-dev, libsundials-dev, libtomlplusplus-dev, libzip-dev, libzstd-dev, \
 nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}: the program")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: libraries and headers for C++")

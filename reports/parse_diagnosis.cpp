@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "findings.hpp"
 #include "json_fields.hpp"
 #include "numbers.hpp"
 #include "parse_artefacts.hpp"
@@ -188,6 +189,10 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   if (!view.series.empty() && !has_torsion) view.units.angle = "joint angle";
   view.has_model = !member(artefact, "model").empty();
   for (const json& note : member(artefact, "notes")) {
+    if (note.is_object() && note.contains("severity")) {
+      view.findings.push_back(parse_finding(note));
+      continue;
+    }
     view.notes.push_back(note.is_string() ? note.get<std::string>() : text_in(note, "says"));
   }
   for (const auto& [name, version] : member(artefact, "versions").items()) {

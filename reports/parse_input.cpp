@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "findings.hpp"
 #include "json_fields.hpp"
 #include "parse_artefacts.hpp"
 
@@ -46,6 +47,10 @@ Input parse_input(const json& artefact) {
   input.units = parse_units(member(artefact, "units"));
   for (const json& recording : member(artefact, "recordings")) {
     input.recordings.push_back(parse_recording(recording));
+  }
+  if (artefact.contains("findings")) {
+    auto& findings = input.findings.emplace();
+    for (const json& one : member(artefact, "findings")) findings.push_back(parse_finding(one));
   }
   for (const auto& [name, curve] : member(artefact, "truth_functions").items()) {
     input.truth[name] = {numbers_in(curve, "argument"), numbers_in(curve, "value")};

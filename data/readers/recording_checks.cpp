@@ -12,9 +12,7 @@ namespace flexspline::data {
 namespace {
 
 constexpr std::size_t kFewestSamples = 16;
-constexpr double kHole = 20.0;        // usual steps
-constexpr double kPause = 100.0;      // durations of all the rest
-constexpr std::size_t kSteps = 9999;  // of which the usual one is taken
+constexpr double kPause = 100.0;  // durations of all the rest
 
 using Series = std::vector<double>;
 
@@ -95,13 +93,10 @@ class Checks {
 
   void check_steps() {
     const Series& time = recording_.time;
-    const double usual = usual_step();
     double longest = 0.0;
     std::size_t row = 0;
-    std::size_t holes = 0;
     for (std::size_t i = 1; i < time.size(); ++i) {
       const double step = time[i] - time[i - 1];
-      holes += step > kHole * usual ? 1 : 0;
       if (step <= longest) continue;
       longest = step;
       row = i + 1;
@@ -112,23 +107,7 @@ class Checks {
              fmt::format("column '{}' jumps by {:.4g} s, where all the rest lasts {:.4g} s",
                          column_of(Quantity::time), longest, rest),
              "correct the time, or cut the recording in two there");
-    } else if (holes > 0) {
-      note(static_cast<int>(row) + 1,
-           fmt::format("{} hole{} in time; the longest, {:.4g} s where {:.4g} s are usual, ends at "
-                       "{:.6g} s",
-                       holes, holes == 1 ? "" : "s", longest, usual, time[row - 1]),
-           "what happened in between is not known; cut the recording there if the gear moved");
     }
-  }
-
-  double usual_step() const {
-    const Series& time = recording_.time;
-    const std::size_t stride = (time.size() - 2) / kSteps + 1;
-    Series steps;
-    for (std::size_t i = 1; i < time.size(); i += stride) steps.push_back(time[i] - time[i - 1]);
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::ranges::nth_element(steps, middle);
-    return *middle;
   }
 
   void check_varies(Quantity quantity, const Series& values) {

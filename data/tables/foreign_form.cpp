@@ -12,7 +12,7 @@ struct Mark {
   ForeignForm form;
 };
 
-constexpr std::array<Mark, 14> kMarks = {{
+constexpr std::array<Mark, 12> kMarks = {{
     {"PK\x03\x04"sv,
      {"a workbook of Excel (.xlsx) or another zip archive",
       "in Excel: File > Save As > CSV UTF-8, one file a sheet; or unpack the archive"}},
@@ -28,8 +28,6 @@ constexpr std::array<Mark, 14> kMarks = {{
      "7zXZ"sv,
      {"compressed by xz", "unxz it"}},
     {"\x28\xB5\x2F\xFD"sv, {"compressed by zstd", "unzstd it"}},
-    {"SQLite format 3"sv, {"a database of SQLite (a rosbag2?)", "export its topic as CSV"}},
-    {"\x89MCAP0\r\n"sv, {"MCAP", "export its topic as CSV"}},
     {"#ROSBAG"sv, {"a rosbag of ROS 1", "rostopic echo -b FILE -p /joint_states > out.csv"}},
     {"UnFinMF "sv, {"an MDF that was not closed", "open and save it where it was measured"}},
     {"MDF     3"sv, {"MDF 3", "convert it to MDF 4 where it was measured, or export it as CSV"}},

@@ -57,11 +57,26 @@ Result<RecordingSet> split_dataset(const InputConfig& input, std::string& note) 
   return set;
 }
 
+/// What looks mistaken in a data set. Errors: bad_data, where it stops science.
+Result<std::vector<data::SanityFinding>> looked_at(const InputConfig& input,
+                                                   const RecordingSet& set) {
+  auto findings = data::sanity_of(set);
+  if (!data::stops_science(findings)) return findings;
+  return failure(ErrorCode::bad_data,
+                 fmt::format("input {}: {}", input.id, findings.front().message()),
+                 fmt::format("flexspline validate {} lists what looks mistaken; where it is none, "
+                             "accept = [\"{}\"] in its dataset.toml says so",
+                             input.dataset.string(), findings.front().check));
+}
+
 Result<void> load_datasets(StudyPlan& plan) {
   for (const InputConfig& input : plan.study->inputs) {
     if (input.dataset.empty()) continue;
     Result<RecordingSet> set = split_dataset(input, plan.notes[input.id]);
     if (!set) return tl::unexpected(set.error());
+    auto findings = looked_at(input, *set);
+    if (!findings) return tl::unexpected(findings.error());
+    plan.findings.emplace(input.id, *std::move(findings));
     plan.datasets.emplace(input.id, std::move(*set));
   }
   return {};

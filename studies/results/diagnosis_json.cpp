@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "flexspline/data/estimate_json.hpp"
+#include "results/findings_json.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -141,14 +142,7 @@ Json note_json(const std::string& code, const std::string& says) {
 }
 
 Json notes_json(const Diagnosis& diagnosis) {
-  Json list = Json::array();
-  for (const data::SanityFinding& one : diagnosis.mistaken) {
-    Json note = note_json(one.code, one.message());
-    note["check"] = one.check;
-    note["severity"] = data::name_of(one.severity);
-    note["recording"] = one.recording.empty() ? Json(nullptr) : Json(one.recording);
-    list.push_back(std::move(note));
-  }
+  Json list = findings_json(diagnosis.mistaken);
   for (const std::string& note : diagnosis.notes) list.push_back(note_json("remark", note));
   return list;
 }

@@ -149,17 +149,6 @@ TEST_F(DatasetBoundary, RefusesADropoutThatNothingMarksAndOneOfTime) {
   EXPECT_THAT(error_of(read(kWithValid, of_time)), HasSubstr("a.csv:5:1: column 't': ''"));
 }
 
-TEST_F(DatasetBoundary, NotesHolesInTime) {
-  const auto table = table_of("t,theta,tau", 40, [](int i) {
-    return fmt::format("{},{},{}", 0.5 * i + (i < 20 ? 0.0 : 10.0), i % 7, i % 5);
-  });
-  const DatasetReading reading = read(kDescription, table);
-  EXPECT_THAT(note_of(reading), HasSubstr("a.csv:22:1: 1 hole in time; the longest, 10.5 s where "
-                                          "0.5 s are usual, ends at 20 s"));
-  ASSERT_TRUE(reading.set.has_value());
-  EXPECT_EQ(reading.set->notes.size(), 1U);
-}
-
 TEST_F(DatasetBoundary, AppliesSignScaleOffsetAndCountsInThisOrder) {
   std::string description =
       with(kDescription, "unit = \"deg\" }",

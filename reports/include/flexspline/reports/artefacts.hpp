@@ -39,6 +39,12 @@ struct Curve {
   std::vector<double> value;
 };
 
+/// What looks mistaken in recordings, before any science.
+struct ShownFinding {
+  std::string severity;  ///< error or warning
+  std::string says;      ///< with the number that shows it, and the remedy
+};
+
 /// A recording as flexspline-input/1 holds it.
 struct InputRecording {
   std::string id;
@@ -57,7 +63,8 @@ struct Input {
   std::string truth_id;  ///< of the virtual bench
   ShownUnits units;
   std::vector<InputRecording> recordings;
-  std::map<std::string, Curve> truth;  ///< by function: f, g_inverse, h
+  std::map<std::string, Curve> truth;                 ///< by function: f, g_inverse, h
+  std::optional<std::vector<ShownFinding>> findings;  ///< of a data set that was looked at
 };
 
 /// A recording as flexspline-case/1 holds it: measured against simulated.

@@ -95,9 +95,10 @@ struct DiagnosisView {
   std::vector<ShownMove> moved;
   std::optional<ShownExperiment> next;
   std::vector<ShownSeries> series;
-  std::vector<std::string> notes;
+  std::vector<ShownFinding> findings;
+  std::vector<std::string> notes;               ///< all others
   std::map<std::string, std::string> versions;  ///< of program and libraries
-  bool has_model = false;  ///< that simulate and fit take
+  bool has_model = false;                       ///< that simulate and fit take
 
   bool adequate() const { return verdict == "adequate"; }
   /// Whether more than one equation of the drive was looked at.
