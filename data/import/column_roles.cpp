@@ -141,4 +141,12 @@ std::string column_in_words(const TableSurvey& table, std::size_t column) {
                      one.unit.empty() ? "" : fmt::format(" [{}]", shown(one.unit)));
 }
 
+std::string columns_in_words(const TableSurvey& table) {
+  std::string words;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    words += (i > 0 ? ", " : "") + column_in_words(table, i);
+  }
+  return words;
+}
+
 }  // namespace flexspline::data

@@ -34,5 +34,7 @@ std::optional<std::size_t> find_time(const TableSurvey& table, std::vector<Colum
 
 /// "column 4 'Drehmoment' [mNm]".
 std::string column_in_words(const TableSurvey& table, std::size_t column);
+/// All of a table.
+std::string columns_in_words(const TableSurvey& table);
 
 }  // namespace flexspline::data

@@ -7,63 +7,13 @@
 #include <cmath>
 
 #include "flexspline/data/rig_channels.hpp"
+#include "import/channel_units.hpp"
 #include "import/short_names.hpp"
 #include "readers/cell_text.hpp"
 #include "tables/unit_words.hpp"
 
 namespace flexspline::data {
 namespace {
-
-using enum ColumnKind;
-
-/// Rates of benches, Hz: a unit of time that gives another is none.
-constexpr double kSlowestRate = 0.01;  // creep is recorded once in a minute
-constexpr double kFastestRate = 50000.0;
-
-/// What a role is called on a rig; where it has none there, nothing.
-std::optional<Quantity> quantity_of(const ColumnMeaning& one, Rig rig) {
-  using enum ColumnSide;
-  switch (one.kind) {
-    case angle:
-      if (one.commanded) return Quantity::commanded_angle;
-      if (rig == Rig::specimen)
-        return one.side == motor ? std::nullopt : std::optional(Quantity::angle);
-      if (one.side == load || (one.side == ColumnSide::unknown && rig == Rig::servo)) {
-        return Quantity::load_angle;
-      }
-      return Quantity::motor_angle;
-    case torque:
-      if (one.commanded) return Quantity::commanded_torque;
-      if (one.side == motor || rig == Rig::servo) return Quantity::motor_torque;
-      return Quantity::transmitted_torque;
-    case torsion:
-      return Quantity::torsion;
-    case displacement:
-      return Quantity::displacement;
-    case velocity:
-      return rig == Rig::specimen ? std::optional(Quantity::velocity) : std::nullopt;
-    case force:
-      return Quantity::force;
-    case current:
-      return Quantity::current;
-    case duty_cycle:
-      return Quantity::duty_cycle;
-    case voltage:
-      return Quantity::supply_voltage;
-    case temperature:
-      return Quantity::temperature;
-    case enabled:
-      return Quantity::drive_enabled;
-    case valid:
-      return Quantity::valid;
-    default:
-      return std::nullopt;
-  }
-}
-
-bool is_mark(Quantity quantity) {
-  return quantity == Quantity::valid || quantity == Quantity::drive_enabled;
-}
 
 class Finder {
  public:
@@ -186,7 +136,7 @@ class Finder {
 
   void add(Quantity quantity, std::size_t column, ColumnRole role, double sign, double counts,
            bool needed) {
-    find_unit_of(quantity, column, role);
+    find_unit_of(quantity, table_, column, role);
     const std::string what = column_in_words(table_, column);
     const bool is_counts = role.unit && role.unit->symbol == "counts";
     const auto info = std::ranges::find(quantities(), quantity, &QuantityInfo::quantity);
@@ -208,46 +158,13 @@ class Finder {
                           : fmt::format("has the unknown unit '{}'", shown(written));
     const std::string option =
         fmt::format("state it: --map {}=col{}:{}", short_name(quantity), column + 1,
-                    is_counts ? "counts/4096" : display_word(*info));
+                    is_counts ? "counts/4096" : usual_unit(*info));
     if (needed) {
       ask(fmt::format("{}, the {}, {}", what, name_of(quantity), why), option);
     } else {
       finding_.notes.push_back(
           fmt::format("{}: {} is left out: it {}; {}", table_.words(), what, why, option));
     }
-  }
-
-  static std::string_view display_word(const QuantityInfo& info) {
-    switch (info.dimensions[0]) {
-      case Dimension::angle:
-        return "deg";
-      case Dimension::torque:
-        return "Nm";
-      case Dimension::time:
-        return "s";
-      default:
-        return "UNIT";
-    }
-  }
-
-  /// Of marks, which have none, and of time, of which one unit may give a rate that benches have.
-  void find_unit_of(Quantity quantity, std::size_t column, ColumnRole& role) const {
-    const ColumnSurvey& survey = table_.columns[column];
-    if (is_mark(quantity) && survey.low >= 0.0 && survey.high <= 1.0) role.unit = find_unit("1");
-    if (role.unit || !survey.column.unit.empty() || quantity != Quantity::time) return;
-    const double step = usual_step(table_, column);
-    if (!(step > 0.0)) return;
-    std::vector<Unit> fitting;
-    for (const char* symbol : {"s", "ms", "us"}) {
-      const Unit unit = *find_unit(symbol);
-      const double rate = 1.0 / (unit.factor * step);
-      if (rate >= kSlowestRate && rate <= kFastestRate) fitting.push_back(unit);
-    }
-    if (fitting.size() != 1) return;
-    role.unit = fitting[0];
-    role.certainty = std::max(role.certainty, Certainty::likely);
-    role.evidence += fmt::format("; of s, ms and us only {} gives a bench's rate, {:.6g} Hz",
-                                 fitting[0].symbol, 1.0 / (fitting[0].factor * step));
   }
 
   bool is_asked(const std::vector<Quantity>& together) const {
@@ -270,7 +187,7 @@ class Finder {
       ask(fmt::format("no column is the {}, which rig '{}' needs", words_of(choice), name_of(rig_)),
           fmt::format(
               "state it: --map {}=colN:{}, or another --rig", short_name(first),
-              display_word(*std::ranges::find(quantities(), first, &QuantityInfo::quantity))));
+              usual_unit(*std::ranges::find(quantities(), first, &QuantityInfo::quantity))));
     }
   }
 

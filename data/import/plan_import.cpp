@@ -107,13 +107,19 @@ class Planner {
           {fmt::format("rig {}", name_of(guess->rig)), Certainty::likely, guess->evidence});
       return;
     }
+    const bool several = tables_.size() > 1;
     std::string columns;
-    for (std::size_t i = 0; i < tables_[0].survey.columns.size(); ++i) {
-      columns += (i > 0 ? ", " : "") + column_in_words(tables_[0].survey, i);
+    for (const Candidate& one : tables_) {
+      columns += several ? fmt::format("{}{}: ", columns.empty() ? "" : "; ", one.survey.words())
+                         : std::string();
+      columns += columns_in_words(one.survey);
     }
     ask(fmt::format("which bench it is cannot be told from {}", columns),
-        "state it: --rig locked|free|specimen|servo (flexspline list rigs), and what columns are: "
-        "--map theta_m=colN:deg");
+        fmt::format("state it: --rig locked|free|specimen|servo (flexspline list rigs), and what "
+                    "columns are: --map theta_m=colN:deg{}",
+                    several ? "; tables of other rates are not joined: export what belongs "
+                              "together on one clock"
+                            : ""));
   }
 
   void find_all_channels() {

@@ -1,8 +1,5 @@
 #include "tables/contained.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,162 +8,16 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <exception>
-#include <fstream>
-#include <new>
 
 #include <fmt/format.h>
 
-#include "tables/table_message.hpp"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define FLEXSPLINE_SANITIZED 1
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define FLEXSPLINE_SANITIZED 1
-#endif
+#include "tables/message_line.hpp"
+#include "tables/reader_process.hpp"
 
 namespace flexspline::data {
 namespace {
 
 constexpr std::uint64_t kLongestMessage = std::uint64_t{1} << 28U;
-
-struct MessageHead {
-  TableWord word;
-  std::uint32_t unused = 0;
-  std::uint64_t bytes;
-};
-
-/// One end of the socket between the two.
-class Line {
- public:
-  explicit Line(int end) : end_(end) {}
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-  ~Line() { ::close(end_); }
-
-  bool send(const void* from, std::size_t count) const {
-    const auto* at = static_cast<const char*>(from);
-    while (count > 0) {
-      const ssize_t sent = ::send(end_, at, count, MSG_NOSIGNAL);
-      if (sent < 0 && errno == EINTR) continue;
-      if (sent <= 0) return false;
-      at += sent;
-      count -= static_cast<std::size_t>(sent);
-    }
-    return true;
-  }
-
-  enum class Got { all, ended, late };
-
-  /// patience_s < 0: for as long as it takes.
-  Got receive(void* to, std::size_t count, double patience_s) const {
-    auto* at = static_cast<char*>(to);
-    while (count > 0) {
-      if (!wait(patience_s)) return Got::late;
-      const ssize_t got = ::recv(end_, at, count, 0);
-      if (got < 0 && errno == EINTR) continue;
-      if (got <= 0) return Got::ended;
-      at += got;
-      count -= static_cast<std::size_t>(got);
-    }
-    return Got::all;
-  }
-
- private:
-  bool wait(double patience_s) const {
-    pollfd watched{end_, POLLIN, 0};
-    const int milliseconds = patience_s < 0.0 ? -1 : static_cast<int>(1000.0 * patience_s);
-    int ready = 0;
-    do {
-      ready = ::poll(&watched, 1, milliseconds);
-    } while (ready < 0 && errno == EINTR);
-    return ready > 0;
-  }
-
-  int end_;
-};
-
-/// The sink on the reader's side.
-class FarSink : public TableSink {
- public:
-  explicit FarSink(const Line& line) : line_(line) {}
-
-  std::vector<std::size_t> begin(const TableHead& head) override {
-    say(TableWord::begin, bytes_of(head));
-    std::uint64_t count = 0;
-    if (line_.receive(&count, sizeof count, -1.0) != Line::Got::all) _exit(1);
-    std::vector<std::uint64_t> wanted(count);
-    if (line_.receive(wanted.data(), 8 * count, -1.0) != Line::Got::all) _exit(1);
-    return {wanted.begin(), wanted.end()};
-  }
-
-  void rows(std::span<const std::vector<double>> columns) override {
-    MessageWriter to;
-    to.number(columns.size());
-    for (const auto& column : columns) to.reals(column);
-    say(TableWord::rows, to.bytes());
-  }
-
-  void note(const std::string& text) override { say(TableWord::note, text); }
-
-  void say(TableWord word, std::string_view bytes) const {
-    const MessageHead head{word, 0, bytes.size()};
-    if (!line_.send(&head, sizeof head) || !line_.send(bytes.data(), bytes.size())) _exit(1);
-  }
-
- private:
-  const Line& line_;
-};
-
-void bound(int resource, rlim_t most) {
-  const rlimit limit{most, most};
-  ::setrlimit(resource, &limit);
-}
-
-/// What it may take: so much memory beyond what the program has, no file of its own, no core.
-void bound_process(const TableLimits& limits) {
-  bound(RLIMIT_CORE, 0);
-  bound(RLIMIT_FSIZE, 0);
-#ifndef FLEXSPLINE_SANITIZED
-  std::ifstream sizes("/proc/self/statm");
-  std::size_t pages = 0;
-  if (sizes >> pages) {
-    bound(RLIMIT_AS,
-          pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + limits.memory_bytes);
-  }
-#else
-  (void)limits;
-#endif
-}
-
-[[noreturn]] void serve(const TableReaderRow& reader, const std::filesystem::path& path,
-                        const TableRequest& request, int end) {
-  for (const int one : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) {
-    std::signal(one, SIG_DFL);
-  }
-  bound_process(request.limits);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::dup2(nowhere, STDERR_FILENO);
-  const Line line(end);
-  FarSink sink(line);
-  try {
-    const auto done = reader.read(path, request, sink);
-    if (done) {
-      sink.say(TableWord::done, "");
-    } else {
-      sink.say(TableWord::failed, done.error().message());
-    }
-  } catch (const std::bad_alloc&) {
-    sink.say(TableWord::failed, path.string() + ": it asks for more memory than it may have");
-  } catch (const std::exception& error) {
-    sink.say(TableWord::failed, path.string() + ": " + error.what());
-  }
-  _exit(0);
-}
 
 /// The reader's process, ended at the latest with this.
 class Child {
@@ -199,7 +50,7 @@ class Child {
 /// What the reader says, passed on to the sink, and checked.
 class NearSide {
  public:
-  NearSide(const Line& line, const TableLimits& limits, TableSink& sink)
+  NearSide(const MessageLine& line, const TableLimits& limits, TableSink& sink)
       : line_(line), limits_(limits), sink_(sink) {}
 
   /// Empty: done. Otherwise what is wrong.
@@ -207,11 +58,13 @@ class NearSide {
     while (true) {
       MessageHead head{};
       const auto got = line_.receive(&head, sizeof head, limits_.silence_s);
-      if (got == Line::Got::late) return fmt::format("takes longer than {:g} s", limits_.silence_s);
+      if (got == MessageLine::Got::late)
+        return fmt::format("takes longer than {:g} s", limits_.silence_s);
       std::string bytes;
-      if (got == Line::Got::all && head.bytes <= kLongestMessage) {
+      if (got == MessageLine::Got::all && head.bytes <= kLongestMessage) {
         bytes.resize(head.bytes);
-        crashed = line_.receive(bytes.data(), bytes.size(), limits_.silence_s) != Line::Got::all;
+        crashed =
+            line_.receive(bytes.data(), bytes.size(), limits_.silence_s) != MessageLine::Got::all;
       } else {
         crashed = true;
       }
@@ -263,7 +116,7 @@ class NearSide {
     return from.ended();
   }
 
-  const Line& line_;
+  const MessageLine& line_;
   const TableLimits& limits_;
   TableSink& sink_;
   std::size_t tables_ = 0;
@@ -283,10 +136,10 @@ Result<void> read_contained(const TableReaderRow& reader, const std::filesystem:
   const pid_t id = ::fork();
   if (id == 0) {
     ::close(ends[0]);
-    serve(reader, path, request, ends[1]);
+    serve_reader(reader, path, request, ends[1]);
   }
   ::close(ends[1]);
-  const Line line(ends[0]);
+  const MessageLine line(ends[0]);
   if (id < 0) {
     return failure(ErrorCode::defect,
                    "no process for a reader: " + std::string(std::strerror(errno)));

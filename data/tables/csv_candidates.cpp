@@ -19,6 +19,7 @@ struct LineLook {
   std::size_t cells = 0;
   std::size_t numbers = 0;  ///< and time stamps
   std::size_t nothing = 0;
+  bool labelled = false;  ///< its first cell is a word
 
   bool is_row() const { return numbers > 0 && 2 * (numbers + nothing) > cells; }
 };
@@ -28,19 +29,49 @@ LineLook look_at(std::string_view line, const CsvCandidate& form, Cells& cells) 
   if (is_blank(line) || is_comment_line(line)) return look;
   split_text(line, form.delimiter, cells);
   look.cells = cells.size();
-  for (const std::string_view cell : cells) {
+  for (const std::string_view& cell : cells) {
     const std::string_view bare = bare_cell(cell);
     if (is_nothing(bare)) {
       ++look.nothing;
     } else if (text_number(bare, form.numbers) || parse_time_stamp(bare)) {
       ++look.numbers;
+    } else if (&cell == &cells.front()) {
+      look.labelled = true;
     }
   }
   return look;
 }
 
-/// Rows are lines of numbers with as many cells as most of them have; from the first that has
-/// another soon after it.
+bool is_row(const LineLook& look, std::size_t cells) {
+  return look.is_row() && look.cells == cells;
+}
+
+/// The first row that has another soon after it; behind the last line where there is none.
+std::size_t first_row(const std::vector<LineLook>& looks, std::size_t cells) {
+  constexpr std::size_t kSoon = 4;
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (!is_row(looks[i], cells)) continue;
+    if (last && i - *last < kSoon) return *last;
+    last = i;
+  }
+  return looks.size();
+}
+
+/// Rows without a label below a few that have one: those say what the file is.
+std::size_t below_labels(const std::vector<LineLook>& looks, std::size_t first, std::size_t cells) {
+  constexpr std::size_t kMostLines = 64;
+  constexpr std::size_t kInARow = 4;
+  if (first >= looks.size() || !looks[first].labelled) return first;
+  std::size_t plain = 0;
+  for (std::size_t i = first; i < std::min(looks.size(), first + kMostLines); ++i) {
+    plain = is_row(looks[i], cells) && !looks[i].labelled ? plain + 1 : 0;
+    if (plain == kInARow) return i + 1 - kInARow;
+  }
+  return first;
+}
+
+/// Rows are lines of numbers with as many cells as most of them have.
 CsvCandidate judged(const Lines& lines, CsvCandidate form) {
   std::vector<LineLook> looks;
   Cells cells;
@@ -52,25 +83,17 @@ CsvCandidate judged(const Lines& lines, CsvCandidate form) {
   if (widths.empty()) return form;
   form.cells =
       std::ranges::max_element(widths, {}, [](const auto& one) { return one.second; })->first;
-  const auto is_row = [&](const LineLook& look) {
-    return look.is_row() && look.cells == form.cells;
-  };
+  form.first = below_labels(looks, first_row(looks, form.cells), form.cells);
   std::size_t known = 0;
-  std::size_t lines_since = 0;
-  constexpr std::size_t kSoon = 4;
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    lines_since += form.rows > 0 && looks[i].cells > 0 ? 1 : 0;
-    if (!is_row(looks[i])) continue;
-    const auto next = looks.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-    const auto stop =
-        looks.begin() + static_cast<std::ptrdiff_t>(std::min(i + kSoon, looks.size()));
-    if (form.rows == 0 && std::none_of(next, stop, is_row)) continue;
-    if (form.rows == 0) form.first = i, lines_since = 1;
+  std::size_t filled = 0;
+  for (std::size_t i = form.first; i < looks.size(); ++i) {
+    filled += looks[i].cells > 0 ? 1 : 0;
+    if (!is_row(looks[i], form.cells)) continue;
     ++form.rows;
     known += looks[i].numbers + looks[i].nothing;
   }
   if (form.rows > 0) {
-    form.share = static_cast<double>(known) / static_cast<double>(lines_since * form.cells);
+    form.share = static_cast<double>(known) / static_cast<double>(filled * form.cells);
   }
   return form;
 }

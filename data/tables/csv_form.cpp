@@ -81,7 +81,10 @@ class Header {
                      "export it with ; between the columns, or with decimal points");
     }
     if (names_ != kNone) take(names_, form_.names);
+    const std::size_t labelled = names_ == kNone || units_ != kNone ? kNone : labelled_units();
+    if (labelled != kNone) units_ = labelled;
     if (units_ != kNone) take(units_, form_.units);
+    if (labelled != kNone) form_.units[0].clear();
     name_the_nameless();
     find_kinds();
     say();
@@ -116,6 +119,19 @@ class Header {
         names_ = i;
       }
     }
+  }
+
+  /// A line far above that says it has the units: "Y_Unit_Label", "Einheit".
+  std::size_t labelled_units() const {
+    Cells cells;
+    for (std::size_t i = 0; i < names_; ++i) {
+      if (!fits(i, cells) || cells.size() < 2) continue;
+      const std::string_view label = bare_cell(cells[0]);
+      const bool says = label.find("Unit") != label.npos || label.find("unit") != label.npos ||
+                        label.find("Einheit") != label.npos;
+      if (says && is_unit_row({cells.begin() + 1, cells.end()})) return i;
+    }
+    return kNone;
   }
 
   bool has_names_above(std::size_t line) const {

@@ -193,6 +193,35 @@ void MatTables::take_fields(const MatVariable& from, std::size_t element, const 
   }
 }
 
-std::vector<MatTable> MatTables::tables() && { return std::move(tables_); }
+/// A struct that holds the time, beside structs of vectors along it, is one table.
+void MatTables::join_into_owners() {
+  const auto owner_of = [&](const MatTable& inner) {
+    return std::ranges::find_if(tables_, [&](const MatTable& one) {
+      return &one != &inner && inner.head.path.starts_with(one.head.path + "/") &&
+             one.columns[0].size() == inner.columns[0].size() &&
+             (one.own == 1 || inner.columns.size() == 1) && one.columns.size() < limits_.columns;
+    });
+  };
+  for (MatTable& one : tables_) one.own = one.columns.size();
+  for (auto inner = tables_.begin(); inner != tables_.end();) {
+    const auto owner = owner_of(*inner);
+    if (owner == tables_.end() || owner->columns.size() + inner->columns.size() > limits_.columns) {
+      ++inner;
+      continue;
+    }
+    std::string way = inner->head.path.substr(owner->head.path.size() + 1);
+    std::ranges::replace(way, '/', '.');
+    for (std::size_t c = 0; c < inner->columns.size(); ++c) {
+      inner->head.columns[c].name = way + "." + inner->head.columns[c].name;
+      owner->add(std::move(inner->head.columns[c]), std::move(inner->columns[c]));
+    }
+    inner = tables_.erase(inner);
+  }
+}
+
+std::vector<MatTable> MatTables::tables() && {
+  join_into_owners();
+  return std::move(tables_);
+}
 
 }  // namespace flexspline::data

@@ -12,12 +12,14 @@ namespace flexspline::data {
 struct MatTable {
   TableHead head;
   std::vector<std::vector<double>> columns;
+  std::size_t own = 0;  ///< columns that do not lie in structs inside it
 
   void add(TableColumn column, std::vector<double> values);
 };
 
-/// Finds tables in variables of MATLAB: vectors side by side; columns of matrices; structs, and
-/// arrays of them; Time and Data of a timeseries; X and Y of dSPACE; time and signals of Simulink.
+/// Finds tables in variables of MATLAB: vectors side by side; columns of matrices; structs, arrays
+/// of them, and structs beside their time; Time and Data of a timeseries; X and Y of dSPACE; time
+/// and signals of Simulink.
 class MatTables {
  public:
   explicit MatTables(const TableLimits& limits) : limits_(limits) {}
@@ -37,6 +39,7 @@ class MatTables {
   bool take_dspace(const MatVariable& from, std::size_t element, const std::string& path);
   bool take_simulink(const MatVariable& from, std::size_t element, const std::string& path);
   MatTable& table(const std::string& path, std::size_t rows);
+  void join_into_owners();
   void note(std::string text);
 
   const TableLimits& limits_;

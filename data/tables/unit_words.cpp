@@ -21,6 +21,7 @@ constexpr std::pair<std::string_view, std::string_view> kWords[] = {
     {"incr", "counts"},     {"minutes", "min"},     {"hours", "h"},      {"boolean", "1"},
     {"bool", "1"},          {"none", "1"},          {"-", "1"},          {"n·m", "Nm"},
     {"newton meter", "Nm"}, {"newton metre", "Nm"}, {"deg c", "degC"},   {"n.mm", "Nmm"},
+    {"deg", "deg"},         {"rad", "rad"},         {"rpm", "rpm"},      {"c", "degC"},
 };
 
 std::string lower(std::string_view text) {

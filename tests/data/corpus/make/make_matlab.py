@@ -32,6 +32,10 @@ def by_scipy():
     expect("matrix.mat", "matlab", ("data", [column(f"data(:,{i + 1})", s) for i, s in enumerate((T, THETA, TAU))]))
     savemat(FILES / "nested.mat", {"bench": {"run": {"t": up(T), "tau": up(TAU), "units": {"tau": "Nm"}}, "gear": "HFUC"}})
     expect("nested.mat", "matlab", ("bench/run", [column("t", T), column("tau", TAU, "Nm")]))
+    savemat(FILES / "beside.mat", {"Messung": {"Info": {"Name": "7"}, "Daten": {
+        "Zeit": up(T), "Antrieb": {"Winkel_deg": up(THETA)}, "Abtrieb": {"Drehmoment_Nm": up(TAU)}}}})
+    expect("beside.mat", "matlab", ("Messung/Daten", [column("Zeit", T), column("Antrieb.Winkel_deg", THETA),
+                                                      column("Abtrieb.Drehmoment_Nm", TAU)]))
     runs = np.zeros((2,), dtype=[("t", "O"), ("tau", "O")])
     for k in range(2):
         runs[k] = (up(T), up([(k + 1) * v for v in TAU]))

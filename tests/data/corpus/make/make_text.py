@@ -182,3 +182,16 @@ def ugly():
     expect("ugly.csv", "csv", ("", [column("Zeit", T_MS, "ms"), column("Motorwinkel", theta, "\u00b0"),
                                     column("Drehmoment", torque, "mNm"), column("column 4", [None] * ROWS)]),
            notes=["names on line 5, units on line 6"])
+    labview()
+
+
+def labview():
+    """LabVIEW's measurement file: two heads, units on a labelled line, a comment behind each row."""
+    head = ["LabVIEW Measurement\t", "Separator\tTab", "Date\t2024/03/05", "***End_of_Header***\t", "\t",
+            "Channels\t2\t\t", f"Samples\t{ROWS}\t{ROWS}\t", "Date\t2024/03/05\t2024/03/05\t",
+            "Y_Unit_Label\tdeg\tNm\t", "X_Dimension\tTime\tTime\t", "X0\t0.0E+0\t0.0E+0\t",
+            "Delta_X\t0.01\t0.01\t", "***End_of_Header***\t\t\t", "X_Value\tMotor angle\tTorque\tComment"]
+    write("scope.lvm", lines(head, [row + "\t" for row in rows(SERIES, "\t")], end="\r\n"))
+    expect("scope.lvm", "csv", ("", [column("X_Value", T), column("Motor angle", THETA, "deg"),
+                                     column("Torque", TAU, "Nm"), column("Comment", [None] * ROWS)]),
+           notes=["names on line 14, units on line 9"])
