@@ -17,7 +17,11 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
+/// A text that a spreadsheet would compute, or run, stays a text behind an apostrophe.
 std::string csv_field(std::string text) {
+  if (text.size() > 1 && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos) {
+    text.insert(text.begin(), '\'');
+  }
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   replace_all(text, "\"", "\"\"");
   return "\"" + text + "\"";

@@ -96,6 +96,16 @@ class SurveySink : public TableSink {
 
 }  // namespace
 
+Result<void> TableSurvey::check_same_file() const {
+  std::error_code ignored;
+  if (std::filesystem::file_size(file, ignored) == bytes &&
+      std::filesystem::last_write_time(file, ignored) == changed) {
+    return {};
+  }
+  return failure(ErrorCode::bad_data, file.string() + " changed while it was imported",
+                 "wait until the bench has written it, or copy it first");
+}
+
 std::string TableSurvey::words() const {
   const std::string name = file.filename().string();
   return path.empty() ? name : fmt::format("{}, table '{}'", name, path);
@@ -108,6 +118,9 @@ Result<std::vector<TableSurvey>> survey_file(const std::filesystem::path& file,
   std::vector<TableSurvey> tables;
   TableSurvey pattern;
   pattern.file = file;
+  std::error_code ignored;
+  pattern.bytes = std::filesystem::file_size(file, ignored);
+  pattern.changed = std::filesystem::last_write_time(file, ignored);
   pattern.reader = (*reader)->id;
   SurveySink sink(tables, pattern);
   if (auto done = read_tables(file, request, sink); !done) return tl::unexpected(done.error());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -32,7 +33,11 @@ struct TableSurvey {
   std::size_t rows = 0;
   std::size_t stride = 1;  ///< rows between two of the samples
   std::vector<std::string> notes;
+  std::uintmax_t bytes = 0;  ///< of the file, when it was looked at
+  std::filesystem::file_time_type changed{};
 
+  /// Errors: bad_data, where the file is not what it was then.
+  Result<void> check_same_file() const;
   /// "file", or "file, table 'path'".
   std::string words() const;
 };

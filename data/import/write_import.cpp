@@ -151,6 +151,7 @@ Result<Imported> write_import(const ImportPlan& plan, const std::filesystem::pat
     if (auto read = read_tables(table.survey.file, plan.wish.request, sink); !read) {
       return tl::unexpected(read.error());
     }
+    if (auto same = table.survey.check_same_file(); !same) return tl::unexpected(same.error());
     if (auto done = rows.finish(); !done) return tl::unexpected(done.error());
     written.push_back(rows.recordings());
     for (std::string& note : rows.notes()) imported.notes.push_back(std::move(note));

@@ -19,6 +19,10 @@ tl::unexpected<Error> not_read(const std::filesystem::path& path, const std::str
                  "check the path and its permissions");
 }
 
+std::int64_t time_of_change(const struct stat& status) {
+  return std::int64_t{1'000'000'000} * status.st_mtim.tv_sec + status.st_mtim.tv_nsec;
+}
+
 std::string reason(int code) { return std::generic_category().message(code); }
 
 }  // namespace
@@ -28,7 +32,8 @@ Result<LineSource> LineSource::open(const std::filesystem::path& path) {
   if (file < 0) return not_read(path, reason(errno));
   struct stat status {};
   const int code = ::fstat(file, &status) == 0 ? 0 : errno;
-  LineSource source(file, code == 0 ? static_cast<std::size_t>(status.st_size) : 0);
+  LineSource source(file, code == 0 ? static_cast<std::size_t>(status.st_size) : 0,
+                    time_of_change(status));
   if (code != 0) return not_read(path, reason(code));
   if (!S_ISREG(status.st_mode)) return not_read(path, "it is no regular file");
   return source;
@@ -37,6 +42,7 @@ Result<LineSource> LineSource::open(const std::filesystem::path& path) {
 LineSource::LineSource(LineSource&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       file_bytes_(other.file_bytes_),
+      changed_ns_(other.changed_ns_),
       buffer_(std::move(other.buffer_)),
       begin_(other.begin_),
       end_(other.end_),
@@ -70,6 +76,12 @@ std::optional<std::string_view> LineSource::next() {
   return std::string_view(buffer_).substr(from, end_ - from);
 }
 
+bool LineSource::has_changed() const {
+  struct stat now {};
+  if (::fstat(file_, &now) != 0) return true;
+  return static_cast<std::size_t>(now.st_size) != file_bytes_ || time_of_change(now) != changed_ns_;
+}
+
 bool LineSource::read_more() {
   if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= std::exchange(begin_, 0);
@@ -79,6 +91,7 @@ bool LineSource::read_more() {
     got = ::read(file_, buffer_.data() + end_, kBlock);
   } while (got < 0 && errno == EINTR);
   if (got < 0) problem_ = reason(errno);
+  if (got == 0 && has_changed()) problem_ = "it changed while it was read";
   if (got > 0) end_ += static_cast<std::size_t>(got);
   return got > 0;
 }

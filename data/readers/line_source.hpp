@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,17 +28,20 @@ class LineSource {
   std::optional<std::string_view> next();
 
   bool is_cut() const { return cut_; }
-  /// What the system said when reading failed; empty where it did not.
+  /// What the system said when reading failed, or that the file has changed; empty where neither.
   const std::string& problem() const { return problem_; }
   std::size_t file_bytes() const { return file_bytes_; }
 
  private:
-  LineSource(int file, std::size_t file_bytes) : file_(file), file_bytes_(file_bytes) {}
+  LineSource(int file, std::size_t file_bytes, std::int64_t changed_ns)
+      : file_(file), file_bytes_(file_bytes), changed_ns_(changed_ns) {}
+  bool has_changed() const;
   /// False at the end of the file.
   bool read_more();
 
   int file_;
   std::size_t file_bytes_;
+  std::int64_t changed_ns_;  ///< since 1970
   std::string buffer_;
   std::size_t begin_ = 0;  ///< of what was not given yet
   std::size_t end_ = 0;    ///< of what was read

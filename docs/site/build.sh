@@ -30,8 +30,8 @@ nav() {
   section 'Start' docs/tutorial.md
   section 'How to' docs/how-to/{bring-your-data,choose-an-estimator,read-a-diagnosis,design-the-next-experiment,use-the-model,reproduce-the-paper,run-a-study-on-a-cluster,add-an-effect}.md
   section 'Background' docs/theory.md docs/limits.md docs/diagnosis.md docs/fits.md docs/simulation.md docs/trials.md
-  section 'Reference' docs/reference/README.md docs/effects/README.md docs/dataset.md docs/import.md docs/model-file.md docs/export.md docs/study-file.md docs/study-kinds.md docs/artefacts.md docs/library.md
-  local known=" tutorial theory limits diagnosis fits simulation trials dataset import model-file export study-file study-kinds artefacts library " others=()
+  section 'Reference' docs/reference/README.md docs/effects/README.md docs/dataset.md docs/import.md docs/sanity.md docs/model-file.md docs/export.md docs/study-file.md docs/study-kinds.md docs/artefacts.md docs/library.md
+  local known=" tutorial theory limits diagnosis fits simulation trials dataset import sanity model-file export study-file study-kinds artefacts library " others=()
   for file in docs/*.md; do
     [[ $known == *" $(basename "$file" .md) "* ]] || others+=("$file")
   done

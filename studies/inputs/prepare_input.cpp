@@ -89,7 +89,6 @@ Result<PreparedInput> prepare_input(const StudyPlan& study, const InputPlan& inp
           ? record_on_bench(input)
           : take_from_dataset(set->second, input, study.notes.at(input.input->id));
   if (!prepared) return tl::unexpected(in_context(prepared.error(), "input " + input.key));
-  if (set != study.datasets.end()) prepared->findings = study.findings.at(input.input->id);
   return prepared;
 }
 

@@ -7,7 +7,6 @@
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/recording.hpp"
 #include "flexspline/data/bench.hpp"
-#include "flexspline/data/sanity.hpp"
 #include "flexspline/studies/plan.hpp"
 
 namespace flexspline::studies {
@@ -34,7 +33,6 @@ struct PreparedInput {
   DisplayUnits units;
   std::optional<data::BenchTruth> truth;  ///< absent for data sets
   std::vector<StudyRecording> recordings;
-  std::vector<data::SanityFinding> findings{};  ///< what looks mistaken in a data set
 
   const StudyRecording* find(std::string_view id) const;
 };

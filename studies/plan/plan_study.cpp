@@ -6,6 +6,7 @@
 #include "flexspline/core/nearest_name.hpp"
 #include "flexspline/core/torsion_record.hpp"
 #include "flexspline/data/dataset.hpp"
+#include "flexspline/data/sanity.hpp"
 #include "flexspline/studies/plan.hpp"
 #include "plan/variant_plan.hpp"
 
@@ -57,11 +58,10 @@ Result<RecordingSet> split_dataset(const InputConfig& input, std::string& note) 
   return set;
 }
 
-/// What looks mistaken in a data set. Errors: bad_data, where it stops science.
-Result<std::vector<data::SanityFinding>> looked_at(const InputConfig& input,
-                                                   const RecordingSet& set) {
-  auto findings = data::sanity_of(set);
-  if (!data::stops_science(findings)) return findings;
+/// Errors: bad_data, where a data set looks so mistaken that it stops science.
+Result<void> look_at(const InputConfig& input, const RecordingSet& set) {
+  const auto findings = data::sanity_of(set);
+  if (!data::stops_science(findings)) return {};
   return failure(ErrorCode::bad_data,
                  fmt::format("input {}: {}", input.id, findings.front().message()),
                  fmt::format("flexspline validate {} lists what looks mistaken; where it is none, "
@@ -74,9 +74,7 @@ Result<void> load_datasets(StudyPlan& plan) {
     if (input.dataset.empty()) continue;
     Result<RecordingSet> set = split_dataset(input, plan.notes[input.id]);
     if (!set) return tl::unexpected(set.error());
-    auto findings = looked_at(input, *set);
-    if (!findings) return tl::unexpected(findings.error());
-    plan.findings.emplace(input.id, *std::move(findings));
+    if (auto sound = look_at(input, *set); !sound) return sound;
     plan.datasets.emplace(input.id, std::move(*set));
   }
   return {};

@@ -6,7 +6,6 @@
 #include "comparison/decimate.hpp"
 #include "comparison/function_errors.hpp"
 #include "flexspline/core/signals.hpp"
-#include "results/findings_json.hpp"
 #include "run/artefact_json.hpp"
 
 namespace flexspline::studies {
@@ -116,7 +115,6 @@ ordered_json input_json(const PreparedInput& input) {
   for (const StudyRecording& recording : input.recordings) {
     object["recordings"].push_back(recording_json(recording, input.units));
   }
-  if (!input.truth) object["findings"] = findings_json(input.findings);
   add_truth(input, object);
   return object;
 }

@@ -10,6 +10,7 @@
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/studies/paper_facts.hpp"
+#include "results/findings_json.hpp"
 #include "run/artefact_json.hpp"
 #include "run/study_cases.hpp"
 #include "run/study_folder.hpp"
@@ -63,7 +64,11 @@ class Beside {
       tasks_.emplace_back([this, &input, file] {
         const StudyCases::Prepared prepared = cases_.prepared(input);
         if (!*prepared) return true;  // every case of it says why
-        return finished(data::write_artefact(file, input_json(**prepared)));
+        auto artefact = input_json(**prepared);
+        if (const auto set = plan_.datasets.find(input.input->id); set != plan_.datasets.end()) {
+          artefact["findings"] = findings_json(data::sanity_of(set->second));
+        }
+        return finished(data::write_artefact(file, std::move(artefact)));
       });
     }
     set_aside(settings_.folder / "inputs", kept, settings_);

@@ -264,6 +264,33 @@ TEST_F(Import, KeepsFormulasAndPathsOutOfWhatItWrites) {
   EXPECT_THAT(*table, testing::StartsWith("t,theta_m,tau\n0,0,"));
 }
 
+TEST_F(Import, NoticesAFileThatChangesBetweenLookingAndWriting) {
+  put("a.csv", bench_text("Zeit [ms];Motorwinkel [deg];Drehmoment [mNm]"));
+  ImportWish from = wish({"a.csv"});
+  from.constants["gear_ratio"] = 50;
+  const auto plan = plan_import(from);
+  ASSERT_TRUE(plan);
+  put("a.csv", bench_text("Zeit [ms];Motorwinkel [deg];Drehmoment [mNm]", 250));
+  const auto written = write_import(*plan, folder_ / "set");
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message(), HasSubstr("a.csv changed while it was imported"));
+}
+
+TEST_F(Import, SaysWhichTablesAreOnClocksOfTheirOwn) {
+  std::string angle = "Zeit [ms];Motorwinkel [deg]\n";
+  std::string torque = "Zeit [ms];Drehmoment [Nm]\n";
+  for (int i = 0; i < 100; ++i) {
+    angle += fmt::format("{};{:.4f}\n", 2 * i, std::sin(0.05 * i));
+    torque += fmt::format("{};{:.4f}\n", 20 * i, std::sin(0.5 * i));
+  }
+  put("angle.csv", angle), put("torque.csv", torque);
+  const auto plan = plan_import(wish({"angle.csv", "torque.csv"}));
+  ASSERT_TRUE(plan);
+  EXPECT_THAT(all_open(*plan), HasSubstr("angle.csv: column 1 'Zeit'"));
+  EXPECT_THAT(all_open(*plan), HasSubstr("torque.csv: column 1 'Zeit'"));
+  EXPECT_THAT(all_open(*plan), HasSubstr("export what belongs together on one clock"));
+}
+
 TEST_F(Import, JoinsFilesInTheUnitsOfTheFirst) {
   put("a.csv", bench_text("Zeit [ms];Motorwinkel [deg];Drehmoment [mNm]"));
   put("b.csv", bench_text("time_ms;motor_pos_mrad;torque_Nm"));

@@ -20,6 +20,11 @@ TEST(Table, CsvKeepsEveryDigitAndQuotesNames) {
   EXPECT_EQ(csv_of(example()), "input,error / %\n\"a \"\"quoted\"\", name\",0.123456\nb|c_d,\n");
 }
 
+TEST(TableText, KeepsFormulasOutOfSpreadsheets) {
+  const Table table{"t", "", {{"a", "", 0}}, {{"=HYPERLINK(1)"}, {"@x"}, {"-2+3"}, {"-"}, {-2.0}}};
+  EXPECT_EQ(csv_of(table), "a\n'=HYPERLINK(1)\n'@x\n'-2+3\n-\n-2\n");
+}
+
 TEST(Table, MarkdownHasARowOfUnitsAndEscapesBars) {
   EXPECT_EQ(markdown_of(example()),
             "| input | error |\n| --- | ---: |\n|  | % |\n| a \"quoted\", name | 0.12 |\n"

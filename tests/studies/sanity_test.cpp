@@ -6,6 +6,9 @@
 
 #include "damaged_set.hpp"
 #include "drive_frame.hpp"
+#include "flexspline/data/dataset.hpp"
+#include "flexspline/studies/plan.hpp"
+#include "study_file.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -93,6 +96,37 @@ TEST(Sanity, OfAFreeRigNeedsNothingNominal) {
     std::ranges::find(damages(), damage, &Damage::name)->apply(set, draw);
     EXPECT_TRUE(data::stops_science(sanity_of(set))) << damage;
   }
+}
+
+/// A study of a data set of one locked bench, damaged in one way.
+Result<StudyPlan> plan_of(const std::string& damage, const ScratchFolder& folder,
+                          StudyConfig& study) {
+  RecordingSet set = sound(Rig::locked);
+  Draw draw(5);
+  if (!damage.empty()) std::ranges::find(damages(), damage, &Damage::name)->apply(set, draw);
+  EXPECT_TRUE(data::write_dataset(folder.path() / "set", set));
+  const auto read = load_study(folder.write(
+      "study.toml", kHead + "[[input]]\nid = \"gear\"\ndataset = \"set\"\n" +
+                        "[[estimator]]\nid = \"static\"\nmethod = \"static_regression\"\n"));
+  EXPECT_TRUE(read) << (read ? "" : read.error().message());
+  study = read.value_or(StudyConfig{});
+  return plan_study(study, "build");
+}
+
+// An error stops a study of the set; a warning does not.
+TEST(Sanity, StopsAStudyWhereTheSetLooksMistaken) {
+  StudyConfig study;
+  for (const char* sound_or_warned : {"", "rows logged twice"}) {
+    const ScratchFolder folder;
+    const auto plan = plan_of(sound_or_warned, folder, study);
+    EXPECT_TRUE(plan) << plan.error().message();
+  }
+  const ScratchFolder folder;
+  const auto plan = plan_of("sign of the torque", folder, study);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().code, ErrorCode::bad_data);
+  EXPECT_NE(plan.error().message().find("input gear: check_sign"), std::string::npos);
+  EXPECT_NE(plan.error().message().find("accept = [\"torque_sign\"]"), std::string::npos);
 }
 
 TEST(Sanity, AnEmptySetAndAShortRecordingSayNothingAndDoNotFail) {

@@ -9,7 +9,7 @@
 namespace flexspline::data {
 namespace {
 
-constexpr double kLeastPhase = 0.1;  // rad at the end of the recording that shows most of it
+constexpr double kLeastPhase = 0.2;  // rad at the end of the recording that shows most of it
 constexpr double kLeft = 0.4;        // of what is unexplained without a drift
 constexpr double kOverlap = 0.02;    // of the shorter recording
 

@@ -10,7 +10,6 @@
 
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/recording.hpp"
-#include "flexspline/data/sanity.hpp"
 #include "flexspline/studies/study_config.hpp"
 
 namespace flexspline::studies {
@@ -70,7 +69,6 @@ class StudyPlan {
   std::vector<InputPlan> inputs;                 ///< variant 0 and replicate 0 of each
   std::map<std::string, RecordingSet> datasets;  ///< by input id, split already decided
   std::map<std::string, std::string> notes;      ///< by input id: how the recordings were split
-  std::map<std::string, std::vector<data::SanityFinding>> findings;  ///< by input id: warnings
   std::vector<Cell> cells;
 
   /// Cases. They are numbered by variant, replicate, input and estimator, the last one fastest.
@@ -96,8 +94,7 @@ class StudyPlan {
 };
 
 /// Plans every case. build_id names the program: results of another build are not taken over.
-/// Errors: input_missing or bad_data when a data set cannot be read, bad_data where it looks
-/// mistaken, with the input's id.
+/// Errors: input_missing or bad_data when a data set cannot be read, with the input's id.
 Result<StudyPlan> plan_study(const StudyConfig& study, const std::string& build_id);
 
 /// Seed of a replicate: the study's seed plus its number.
