@@ -41,9 +41,9 @@ TEST(DiagnosisReport, TellsTheStoryInOrderFromTheOneArtefact) {
   ASSERT_TRUE(page) << page.error().message();
   EXPECT_EQ(page->page, folder.path() / "index.html");
   EXPECT_EQ(section_ids(folder),
-            (std::vector<std::string>{"verdict", "differs-section", "left-out-section",
-                                      "tried-section", "unseen-section", "confusable-section",
-                                      "moved-section", "provenance-section"}));
+            (std::vector<std::string>{
+                "recordings", "verdict", "differs-section", "left-out-section", "tried-section",
+                "unseen-section", "confusable-section", "moved-section", "provenance-section"}));
   const std::string html = folder.text("index.html");
   EXPECT_TRUE(contains(html, "<p class=\"verdict\">Presliding hysteresis was left out:"));
   EXPECT_TRUE(contains(html, "explains less than presliding hysteresis"));
@@ -121,9 +121,9 @@ TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
     for (ordered_json& one : json["series"]) one["after"] = one["before"];
   });
   ASSERT_TRUE(write_report(folder.path()));
-  EXPECT_EQ(section_ids(folder),
-            (std::vector<std::string>{"verdict", "differs-section", "left-out-section",
-                                      "tried-section", "unseen-section", "provenance-section"}));
+  EXPECT_EQ(section_ids(folder), (std::vector<std::string>{
+                                     "recordings", "verdict", "differs-section", "left-out-section",
+                                     "tried-section", "unseen-section", "provenance-section"}));
   const std::string markup = markup_of(folder.text("index.html"));
   EXPECT_TRUE(contains(markup, "Adequate: the baseline explains"));
   EXPECT_TRUE(contains(markup, "none was accepted"));
