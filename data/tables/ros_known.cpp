@@ -26,7 +26,7 @@ constexpr const char* kLayout =
 constexpr std::array<Known, 5> kKnown = {{
     {"sensor_msgs/JointState",
      "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
-     "float64[] effort\n"},
+     "float64[]\teffort\n"},
     {"sensor_msgs/Temperature", "std_msgs/Header header\nfloat64 temperature\nfloat64 variance\n"},
     {"geometry_msgs/WrenchStamped", "std_msgs/Header header\nWrench wrench\n"},
     {"geometry_msgs/Wrench", "Vector3 force\nVector3 torque\n"},
