@@ -114,7 +114,8 @@ TEST_F(ImportCommand, ListsItsReaders) {
   ASSERT_EQ(done.code, 0);
   std::vector<std::string> ids;
   for (const json& row : json::parse(done.result)) ids.push_back(row.at("id"));
-  EXPECT_THAT(ids, testing::ElementsAre("csv", "hdf5", "matlab", "mdf4", "netcdf"));
+  EXPECT_THAT(ids,
+              testing::ElementsAre("csv", "hdf5", "matlab", "mcap", "mdf4", "netcdf", "rosbag2"));
 }
 
 }  // namespace
