@@ -89,7 +89,20 @@ Stretch by_power(const ArrayXd& z, Index at) {
   return best;
 }
 
-// A mean from one row to the end that is another than before.
+// Long-run variance over variance, at least 1 (Newey and West 1987): by how much means of rows that
+// follow each other scatter more than those of independent ones.
+double long_run(const ArrayXd& z, Index lags) {
+  double sum = z.square().sum();
+  const double variance = sum;
+  for (Index k = 1; k <= lags && k < z.size(); ++k) {
+    const double weight = 1.0 - static_cast<double>(k) / static_cast<double>(lags + 1);
+    sum += 2.0 * weight * (z.head(z.size() - k) * z.tail(z.size() - k)).sum();
+  }
+  return variance > 0.0 ? std::max(1.0, sum / variance) : 1.0;
+}
+
+// A mean from one row to the end that is another than before, held against how means of this
+// residual wander: what a model misses is no step.
 Stretch by_step(const ArrayXd& z, Index at) {
   const Index n = z.size();
   const ArrayXd sum = running_sum(z.max(-kOutlying).min(kOutlying));
@@ -101,6 +114,13 @@ Stretch by_step(const ArrayXd& z, Index at) {
     const double nats = 0.5 * contrast * contrast * before * (total - before) / total;
     if (nats > best.nats) best = {nats, at + i, n - i, 0.0};
   }
+  if (best.count == 0) return best;
+  ArrayXd about = z.max(-kOutlying).min(kOutlying);
+  auto later = about.tail(best.count);
+  auto earlier = about.head(n - best.count);
+  later -= later.mean();
+  earlier -= earlier.mean();
+  best.nats /= long_run(about, n / 10);
   return best;
 }
 

@@ -59,6 +59,18 @@ TEST(Incident, NoiseHasNoneNorHasWhatEveryRecordingHas) {
   EXPECT_FALSE(find_incident(frame, leaving(frame, both), {}));
 }
 
+// Slow noise of one recording has a mean from some row on that differs from the one before.
+TEST(Incident, WhatWandersInOneRecordingIsNoStep) {
+  const Frame frame = closed_form_frame(6000);
+  const double torque = frame.largest_torque(Equation::load);
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    ArrayXd slow = ArrayXd::Zero(frame.rows());
+    slow.head(3000) = 0.01 * torque * coloured_noise(3000, 0.99, seed);
+    const auto found = find_incident(frame, leaving(frame, slow), {});
+    EXPECT_FALSE(found && found->first + found->count == 3000) << seed;
+  }
+}
+
 // One row in a hundred ten times off, as of a Student t of few degrees.
 TEST(Incident, ATailIsNone) {
   const Frame frame = closed_form_frame(6000);
