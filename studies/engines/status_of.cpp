@@ -14,19 +14,36 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kTold = 20;  // failures
 
-}  // namespace
-
-Result<StudyStatus> status_of(const std::filesystem::path& folder) {
-  const auto lock = read_lock_json(folder / "study.lock.toml");
+/// Name and number of cases of the study that is locked here.
+Result<StudyStatus> locked_in(const std::filesystem::path& folder) {
+  const auto path = folder / "study.lock.toml";
+  const auto lock = read_lock_json(path);
   if (!lock) {
     return failure(ErrorCode::input_missing,
                    fmt::format("{} holds no study: {}", folder.string(), lock.error().problem),
                    "give the folder that run, fit or compare writes");
   }
-  StudyStatus status;
-  status.name = lock->at("study").value("name", "");
-  const auto listed = lock->find("cases");
-  status.cases = lock->value("count", listed == lock->end() ? std::size_t{0} : listed->size());
+  try {
+    StudyStatus status;
+    status.name = lock->at("study").value("name", "");
+    const auto listed = lock->find("cases");
+    status.cases = lock->value("count", listed == lock->end() ? std::size_t{0} : listed->size());
+    return status;
+  } catch (const nlohmann::json::exception&) {
+    return failure(ErrorCode::bad_data,
+                   path.string() +
+                       ": [study] with the study's name, or the number of its cases "
+                       "('count'), is missing or is something else",
+                   "it is damaged: run the study into another folder");
+  }
+}
+
+}  // namespace
+
+Result<StudyStatus> status_of(const std::filesystem::path& folder) {
+  auto locked = locked_in(folder);
+  if (!locked) return locked;
+  StudyStatus& status = *locked;
   const auto store = CaseStore::open(folder, [&](const CaseHead& head) {
     status.seconds += head.seconds;
     if (head.failure.empty() || status.failures.size() == kTold) return;
@@ -41,7 +58,7 @@ Result<StudyStatus> status_of(const std::filesystem::path& folder) {
   for (const RunningShard& one : status.running) rate += one.state.per_second;
   const auto left = static_cast<double>(status.cases - std::min(status.cases, status.done));
   status.left_seconds = rate > 0.0 ? left / rate : std::nan("");
-  return status;
+  return locked;
 }
 
 ordered_json to_json(const StudyStatus& status) {

@@ -49,6 +49,16 @@ TEST_F(StoreCommands, ShardsStatusAndGather) {
   EXPECT_TRUE(status()["complete"]);
 }
 
+TEST_F(StoreCommands, StatusNamesALockThatIsDamaged) {
+  std::filesystem::create_directory(folder_.path() / "damaged");
+  for (const char* lock : {"", "study = 3\n", "count = \"many\"\n[study]\nname = \"x\"\n"}) {
+    folder_.write("damaged/study.lock.toml", lock);
+    const Ended ended = run_program({"status", path("damaged")});
+    EXPECT_EQ(ended.code, 65) << ended.said;
+    EXPECT_THAT(ended.said, HasSubstr("study.lock.toml")) << lock;
+  }
+}
+
 TEST_F(StoreCommands, ShardsAndLimitsThatCannotBeAreRefused) {
   for (const char* shard : {"0/2", "3/2", "2", "1/0", "a/b", "1/2x", "-1/2"}) {
     const Ended ended = run({std::string("--shard=") + shard});
