@@ -33,7 +33,7 @@ const check = (holds, what) => {
 
 /// The summary is one sheet of A4 with three figures of some size, and nothing is cut off.
 async function checkSummary(from, file, at) {
-  const page = await from.context().newPage();
+  const page = await from.context().browser().newPage();
   await page.goto(new URL(file, from.url()).href);
   const print = await page.pdf({ preferCSSPageSize: true, printBackground: true });
   writeFileSync(join(work, "summary.pdf"), print);
