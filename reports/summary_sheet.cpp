@@ -23,11 +23,11 @@ p { margin: 0 0 1.5mm; }
 .verdict { font-size: 10.5pt; font-weight: 600; border-left: 1mm solid #000; padding-left: 2.5mm; margin: 2mm 0; }
 table { border-collapse: collapse; width: 100%; margin: 1mm 0 2mm; font-size: 8.5pt; }
 th, td { text-align: left; padding: 0.6mm 1.5mm; border-bottom: 0.2mm solid #999; overflow-wrap: anywhere; }
-.n { text-align: right; }
+.n { text-align: right; white-space: nowrap; max-width: 40mm; overflow: hidden; text-overflow: ellipsis; }
 figure { margin: 0 0 1mm; break-inside: avoid; }
 figcaption { font-size: 8pt; color: #333; }
 figure > svg { display: block; margin: 0 auto; }
-.tall > svg { width: 182mm; height: 62mm; }
+.tall > svg { width: 182mm; height: 56mm; }
 .flat > svg { width: 182mm; height: 42mm; }
 .origin { font-size: 7.5pt; color: #333; overflow-wrap: anywhere; }
 @media screen { body { padding: 8mm 0; } }
