@@ -8,15 +8,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string words(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (!value.is_array()) return value.dump();
-  std::string text;
-  for (const ordered_json& one : value) text += (text.empty() ? "" : ", ") + words(one);
-  return text;
-}
-
 /// An option's meaning; a parameter's unit, bounds and nominal value.
 std::string explained(const ordered_json& one) {
   if (one.contains("says")) return words(one.at("says"));
@@ -68,6 +59,15 @@ std::string rig_words(const ordered_json& row) {
 }
 
 }  // namespace
+
+std::string words(const ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const ordered_json& one : value) text += (text.empty() ? "" : ", ") + words(one);
+  return text;
+}
 
 std::string catalogue_text(const ordered_json& rows) {
   std::string text;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "catalogue_text.hpp"
 #include "embedded_text.hpp"
 #include "flexspline/core/write_file.hpp"
 
@@ -21,15 +22,6 @@ std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
     text.insert(at, "\\");
   }
-  return text;
-}
-
-std::string words(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (!value.is_array()) return value.dump();
-  std::string text;
-  for (const ordered_json& one : value) text += (text.empty() ? "" : ", ") + words(one);
   return text;
 }
 

@@ -90,7 +90,8 @@ Stretch by_power(const ArrayXd& z, Index at) {
 }
 
 // Long-run variance over variance, at least 1 (Newey and West 1987): by how much means of rows that
-// follow each other scatter more than those of independent ones.
+// follow each other scatter more than those of independent ones. The estimators' own ratio ends at
+// forty lags, which what a model misses outlasts.
 double long_run(const ArrayXd& z, Index lags) {
   double sum = z.square().sum();
   const double variance = sum;

@@ -224,7 +224,7 @@ using Diagnose =
 struct TrialSettings {
   RunSettings run;
   std::filesystem::path recordings;  ///< keeps every data set as recordings/<key>; empty: none
-  /// What tells the diagnosis from the usual one, by name; part of what a case depends on.
+  /// Name of the diagnosis where it is not the default one; part of what a case depends on.
   std::map<std::string, std::string> diagnosis;
 };
 
