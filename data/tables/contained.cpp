@@ -18,6 +18,7 @@ namespace flexspline::data {
 namespace {
 
 constexpr std::uint64_t kLongestMessage = std::uint64_t{1} << 28U;
+constexpr int kPatienceMs = 20;
 
 /// The reader's process, ended at the latest with this.
 class Child {
@@ -31,13 +32,15 @@ class Child {
   int end() {
     if (id_ < 0) return 0;
     int status = 0;
-    if (::waitpid(id_, &status, WNOHANG) == 0) {
-      ::usleep(20000);  // a crash is told before it is reaped
-      if (::waitpid(id_, &status, WNOHANG) == 0) {
-        ::kill(id_, SIGKILL);
-        ::waitpid(id_, &status, 0);
-        status = 0;
-      }
+    pid_t gone = ::waitpid(id_, &status, WNOHANG);
+    for (int ms = 0; gone == 0 && ms < kPatienceMs; ++ms) {  // a crash is told before it is reaped
+      ::usleep(1000);
+      gone = ::waitpid(id_, &status, WNOHANG);
+    }
+    if (gone == 0) {
+      ::kill(id_, SIGKILL);
+      ::waitpid(id_, &status, 0);
+      status = 0;
     }
     id_ = -1;
     return WIFSIGNALED(status) ? WTERMSIG(status) : 0;

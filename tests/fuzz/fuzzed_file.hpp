@@ -9,8 +9,15 @@
 #include <unistd.h>
 
 #include "flexspline/data/table_reader.hpp"
+#include "tables/contained.hpp"
 
 namespace flexspline::fuzz {
+
+#ifdef FLEXSPLINE_FUZZ_GUIDED
+constexpr bool kGuided = true;
+#else
+constexpr bool kGuided = false;
+#endif
 
 /// A folder of this process, with one file that each input replaces.
 inline std::filesystem::path folder() {
@@ -50,14 +57,21 @@ class CheckingSink : public data::TableSink {
   std::size_t wanted_ = 0;
 };
 
-/// One reader on one input, whatever its first bytes say.
+/// One reader on one input, whatever its first bytes say. A reader by others runs as it does in the
+/// program, in a process of its own: its library may crash, this process may not. Only libFuzzer, which
+/// sees nothing of another process, runs it in this one.
 inline void read(std::string_view reader, const std::uint8_t* bytes, std::size_t size) {
   const std::filesystem::path path = write("input", bytes, size);
   data::TableRequest request;
   request.limits.rows = 1'000'000;
   CheckingSink sink;
   for (const data::TableReaderRow& row : data::table_readers()) {
-    if (row.id == reader) (void)row.read(path, request, sink);
+    if (row.id != reader) continue;
+    if (row.by_others && !kGuided) {
+      (void)data::read_contained(row, path, request, sink);
+    } else {
+      (void)row.read(path, request, sink);
+    }
   }
 }
 

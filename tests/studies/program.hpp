@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,8 +39,9 @@ struct Call {
   std::vector<std::string> arguments;
   Stream out = Stream::kept;
   Stream err = Stream::kept;
-  double limit = 120.0;  ///< s until it is asked to stop
+  double limit = 120.0;  ///< s until it is asked to stop, from when it listens and is ready
   int stop_signal = SIGTERM;
+  std::function<bool()> ready{};  ///< what it must have come to before that time runs
   std::filesystem::path folder{};  ///< to run in; empty: that of the tests
 };
 
@@ -104,12 +106,25 @@ class ChildProgram {
 
   void watch() {
     constexpr double kPatience = 30.0;  // for one that does not stop: then it is ended
-    if (!ended_.stopped && elapsed() > call_.limit) {
+    if (ready_ < 0.0 && listens() && (!call_.ready || call_.ready())) ready_ = elapsed();
+    if (!ended_.stopped && ready_ >= 0.0 && elapsed() - ready_ > call_.limit) {
       ended_.stopped = true;
       asked_ = elapsed();
       kill(child_, call_.stop_signal);
     }
     if (ended_.stopped && elapsed() - asked_ > kPatience) kill(child_, SIGKILL);
+  }
+
+  /// Whether it has come so far as to catch the signal: until then, which takes a second on a busy
+  /// machine, the signal ends any program. SIGKILL cannot be caught.
+  bool listens() const {
+    if (call_.stop_signal == SIGKILL) return true;
+    std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (!line.starts_with("SigCgt:")) continue;
+      return (std::stoull(line.substr(7), nullptr, 16) >> (call_.stop_signal - 1) & 1U) != 0;
+    }
+    return false;
   }
 
   double elapsed() const {
@@ -121,6 +136,7 @@ class ChildProgram {
   Ended ended_;
   pid_t child_ = -1;
   std::chrono::steady_clock::time_point begun_;
+  double ready_ = -1.0;
   double asked_ = 0.0;
 };
 

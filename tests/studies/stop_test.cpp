@@ -64,7 +64,11 @@ TEST_F(AskedToStop, AStudyGoesOnFromWhatIsFinished) {
   study.insert(study.find("[bench]"), "replicates = 400\n");
   folder_.write("study.toml", study);
   Call call{{"run", path("study.toml"), "--jobs", "1", "--out", path("out")}};
-  call.limit = 2.0;
+  call.limit = 1.0;
+  call.ready = [&] {
+    const auto store = CaseStore::open(path("out"));
+    return store && store->size() > 0;
+  };
   const Ended ended = run_program(call);
   ASSERT_EQ(ended.code, 75) << ended.said;
   EXPECT_LT(ended.stopping, 2.0);
@@ -75,6 +79,7 @@ TEST_F(AskedToStop, AStudyGoesOnFromWhatIsFinished) {
   std::map<std::string, std::string> before;
   for (const std::string& key : left->keys()) before[key] = left->read(key)->artefact;
   call.limit = 1.0;
+  call.ready = nullptr;
   EXPECT_EQ(run_program(call).code, 75);
   for (const auto& [key, artefact] : before) {
     EXPECT_EQ(stored_case(path("out"), key).artefact, artefact) << key;
