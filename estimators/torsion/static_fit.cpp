@@ -88,6 +88,7 @@ Result<StaticFit> made(const std::vector<TorsionRecord>& records, const StaticFi
     fit = fitted(*prepared, base, *richest, decision->free, settings);
     if (!fit) return tl::unexpected(fit.error());
   }
+  if (!fit->refused.empty()) decision->notes.push_back(fit->refused);
   return StaticFit{std::move(*prepared), std::move(*decision), std::move(*fit), content, misses};
 }
 

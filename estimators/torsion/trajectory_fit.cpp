@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "torsion/torque_residuals.hpp"
 #include "torsion/torsion_residuals.hpp"
 #include "uncertainty/covariance.hpp"
@@ -60,12 +62,26 @@ FreeTerms significant_terms(const TrajectoryFit& fit) {
   auto keep = [&](const Group& group) { return group.present() && far_from_zero(group.first); };
   FreeTerms free = layout.free_terms();
   free.offset = keep(layout.offset_group);
-  free.inertia = keep(layout.inertia_group);
+  free.inertia = keep(layout.inertia_group) && layout.inertia(fit.solution.p) > 0.0;
   free.delay = keep(layout.delay_group);
   if (free.h > kFewestModulationTerms && !far_from_zero(layout.h_group.first + free.h - 1)) {
     --free.h;
   }
   return free;
+}
+
+/// What is said of an inertia that is material, and below zero.
+std::string refused_inertia(const TrajectoryFit& fit, bool linear) {
+  const TorsionLayout& layout = fit.at.layout;
+  const double value = layout.inertia(fit.solution.p);
+  if (!layout.inertia_group.present() || value >= 0.0) return {};
+  const auto i = static_cast<Eigen::Index>(layout.inertia_group.first);
+  const double sd = std::sqrt(fit.covariance(i, i));
+  if (-value <= kMaterial * sd) return {};
+  return fmt::format(
+      "inertia is left out: it comes out as {:.3g} +- {:.2g} {}, and none is below zero. Something "
+      "that these laws lack goes against the acceleration",
+      value, sd, layout.unit(layout.inertia_group.first, !linear));
 }
 
 bool same(const FreeTerms& a, const FreeTerms& b) {
@@ -91,11 +107,14 @@ Result<TrajectoryFit> fit_torque(const LinearStart& start,
                                  const std::vector<PreparedRecord>& records,
                                  const SolverSettings& settings) {
   auto fit = fit_torque_once(start, records, settings);
+  std::string refused;
   while (fit) {
     const FreeTerms kept = significant_terms(*fit);
     if (same(kept, fit->at.layout.free_terms())) break;
+    if (refused.empty()) refused = refused_inertia(*fit, records.front().record.linear);
     fit = fit_torque_once(with_terms(fit->at, kept), records, settings);
   }
+  if (fit) fit->refused = std::move(refused);
   return fit;
 }
 

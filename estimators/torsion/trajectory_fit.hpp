@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "flexspline/core/simulate.hpp"
@@ -18,6 +19,7 @@ struct TrajectoryFit {
   Eigen::MatrixXd covariance;
   Linearisation linear;
   Direction direction;
+  std::string refused{};  ///< which material term was left out for its sign; empty: none
 };
 
 /// Counts the noise of the motion into effort_sigma, by the slope d tau / d phi of the law at a
@@ -26,7 +28,8 @@ Result<void> add_motion_noise(std::vector<PreparedRecord>& records, const Linear
 
 /// Fits eq. (4). Offset, inertia, delay and the highest terms of ln h that lie within three
 /// standard deviations of zero are taken out one round after another: kept, they would only pass
-/// their uncertainty on to g^-1. ln h keeps two terms.
+/// their uncertainty on to g^-1. ln h keeps two terms. So is an inertia below zero, whatever its
+/// uncertainty; `refused` says so of one that is material.
 Result<TrajectoryFit> fit_torque(const LinearStart& start,
                                  const std::vector<PreparedRecord>& records,
                                  const SolverSettings& settings);

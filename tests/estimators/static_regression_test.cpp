@@ -114,6 +114,25 @@ TEST(StaticRegression, NamesTheRecordingThatAnInertiaWouldNeed) {
   EXPECT_NEAR(inertia->value / gear.inertia, 1.0, 0.05);
 }
 
+// A torque against the acceleration is no inertia, however well one below zero would fit it.
+TEST(StaticRegression, AnInertiaBelowZeroIsLeftOut) {
+  Gear gear = smooth_gear();
+  const double omega = 2.0 * std::numbers::pi * kFrequency;
+  gear.inertia = -0.8 / (kAmplitude * omega * omega);
+  const std::vector<TorsionRecord> two = {
+      measured(gear, {.noise = 0.002}),
+      measured(gear, {.frequency = 0.5, .noise = 0.002, .seed = 3})};
+  for (const char* method : {"static_regression", "trajectory_ceres"}) {
+    const auto fit = fitted(method, two);
+    ASSERT_TRUE(fit) << fit.error().message();
+    EXPECT_EQ(std::ranges::find(fit->parameters, "inertia", &ParameterEstimate::name),
+              fit->parameters.end());
+    EXPECT_THAT(fit->notes,
+                testing::Contains(AllOf(HasSubstr("inertia is left out: it comes out as -"),
+                                        HasSubstr("none is below zero"))));
+  }
+}
+
 TEST(StaticRegression, RefusesAMotionOneWay) {
   const Gear gear = cubic_gear();
   TorsionRecord ramp;

@@ -43,6 +43,32 @@ TEST_F(ErrorsInWords, WhatIsLargerThanTheSignalHasDiverged) {
   EXPECT_THAT(ended.result, HasSubstr("diverged: larger than the signal"));
 }
 
+// Ten times faster than what was trained on: g^-1 is known nowhere near.
+TEST_F(ErrorsInWords, WhatIsBeyondTheTrainingIsExtrapolated) {
+  const std::string faster =
+      "[[recording]]\nid = \"fast\"\nfile = \"fast.csv\"\nexcitation = \"sine\"\nsplit = "
+      "\"holdout\"\n";
+  ASSERT_EQ(run_program({"simulate", path("model.toml"), "--excitation", "sine", "--amplitude",
+                         "0.2deg", "--frequency", "0.05Hz", "--extrapolate", "--out", path("fast")})
+                .code,
+            0);
+  std::filesystem::path table;
+  for (const auto& entry : std::filesystem::directory_iterator(path("fast"))) {
+    if (entry.path().extension() == ".csv") table = entry.path();
+  }
+  folder_.write("set/fast.csv", read_text(table));
+  folder_.write("set/dataset.toml", read_text(path("set/dataset.toml")) + faster);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"fit", path("set"), "--estimator", "static_regression"},
+        std::vector<std::string>{"compare", path("set"), "--estimators", "static_regression"}}) {
+    std::vector<std::string> call = words;
+    call.insert(call.end(), {"--out", path(words.front())});
+    const Ended ended = run_program(call);
+    ASSERT_EQ(ended.code, 0) << ended.said;
+    EXPECT_THAT(ended.result, HasSubstr("extrapolated, its motion or speed goes beyond"));
+  }
+}
+
 TEST_F(ErrorsInWords, CompareSaysTheSameOfEveryEstimator) {
   const Ended ended = run_program({"compare", path("set"), "--estimators",
                                    "midpoint_polynomial,trajectory_ceres", "--out", path("both")});

@@ -47,7 +47,8 @@ ordered_json table_of(const studies::StudyConfig& study, const std::filesystem::
                       {"recording", recording.at("id")},
                       {"rmse", recording.at("rmse")},
                       {"unit", artefact->at("units").at("effort")},
-                      {"rmse_percent_of_peak", recording.at("rmse_percent_of_peak")}});
+                      {"rmse_percent_of_peak", recording.at("rmse_percent_of_peak")},
+                      {"outside_domain", recording.at("outside_domain")}});
     }
   }
   return rows;
@@ -60,7 +61,7 @@ std::string as_text(const ordered_json& rows) {
     text += fmt::format("\n{:<24} {:<8} {:<28} {}", row.at("estimator").get<std::string>(),
                         row.at("role").get<std::string>(), row.at("recording").get<std::string>(),
                         error_text(row.at("rmse"), row.at("unit").get<std::string>(),
-                                   row.at("rmse_percent_of_peak")));
+                                   row.at("rmse_percent_of_peak"), row.at("outside_domain")));
   }
   return text;
 }

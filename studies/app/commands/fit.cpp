@@ -37,7 +37,7 @@ ordered_json estimate_of(const ordered_json& artefact) {
   ordered_json estimate = artefact.at("estimate");
   const ordered_json roles = {{"train", ordered_json::object()},
                               {"holdout", ordered_json::object()}};
-  for (const char* metric : {"rmse", "rmse_percent_of_peak"}) {
+  for (const char* metric : {"rmse", "rmse_percent_of_peak", "outside_domain"}) {
     estimate[metric] = roles;
     for (const ordered_json& recording : artefact.at("recordings")) {
       estimate[metric][recording.at("role").get<std::string>()]
@@ -76,7 +76,7 @@ std::string pooled_line(const ordered_json& estimate, const char* role) {
   const auto& pooled = estimate.at("pooled_rmse").at(role);
   if (pooled.is_null()) return {};
   return fmt::format("\n  {:<8} {:<28} rmse {}", role, "all samples",
-                     error_text(pooled, estimate.value("error_unit", ""), nullptr));
+                     error_text(pooled, estimate.value("error_unit", ""), nullptr, false));
 }
 
 std::string summary_of(const ordered_json& estimate, const FittedRig& rig) {
@@ -88,7 +88,8 @@ std::string summary_of(const ordered_json& estimate, const FittedRig& rig) {
     for (const auto& [id, value] : estimate.at("rmse").at(role).items()) {
       text += fmt::format("\n  {:<8} {:<28} rmse {}", role, id,
                           error_text(value, estimate.value("error_unit", ""),
-                                     estimate.at("rmse_percent_of_peak").at(role).at(id)));
+                                     estimate.at("rmse_percent_of_peak").at(role).at(id),
+                                     estimate.at("outside_domain").at(role).at(id)));
     }
     text += pooled_line(estimate, role);
   }
