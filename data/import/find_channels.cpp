@@ -113,6 +113,7 @@ class Finder {
       if (fits && !is_taken(i) && table_.columns[i].present > 0) columns.push_back(i);
     }
     prefer_named(columns);
+    prefer_moving(columns);
     if (columns.size() == 1) {
       add(quantity, columns[0], roles_[columns[0]], 1.0, 0.0, needed);
     } else if (columns.size() > 1 && needed) {
@@ -132,6 +133,17 @@ class Finder {
              roles_[i].certainty == Certainty::likely;
     });
     if (named.size() == 1) columns = named;
+  }
+
+  /// Of the axes of a sensor the only one in which something happens.
+  void prefer_moving(std::vector<std::size_t>& columns) {
+    std::vector<std::size_t> moving = columns;
+    std::erase_if(moving, [&](std::size_t i) { return !table_.columns[i].moves(); });
+    if (moving.size() != 1 || columns.size() == 1) return;
+    ColumnRole& role = roles_[moving[0]];
+    role.certainty = std::max(role.certainty, Certainty::likely);
+    role.evidence += fmt::format(", and of {} such the only one that changes", columns.size());
+    columns = moving;
   }
 
   void add(Quantity quantity, std::size_t column, ColumnRole role, double sign, double counts,

@@ -12,6 +12,7 @@
 #include "import/find_channels.hpp"
 #include "import/find_rig.hpp"
 #include "import/import_parts.hpp"
+#include "import/join_candidates.hpp"
 
 namespace flexspline::data {
 namespace {
@@ -40,7 +41,9 @@ class Planner {
     for (const auto& file : plan_.wish.files) {
       auto tables = survey_file(file, plan_.wish.request);
       if (!tables) return tl::unexpected(tables.error());
+      const std::size_t before = tables_.size();
       for (TableSurvey& table : *tables) consider(std::move(table));
+      join_candidates(tables_, before, plan_);
     }
     plan_.constants = plan_.wish.constants;
     if (tables_.empty()) {
@@ -57,11 +60,6 @@ class Planner {
   }
 
  private:
-  struct Candidate {
-    TableSurvey survey;
-    std::vector<ColumnRole> roles;
-  };
-
   void ask(std::string problem, std::string remedy) {
     plan_.open.push_back({std::move(problem), std::move(remedy)});
   }
@@ -117,8 +115,9 @@ class Planner {
     ask(fmt::format("which bench it is cannot be told from {}", columns),
         fmt::format("state it: --rig locked|free|specimen|servo (flexspline list rigs), and what "
                     "columns are: --map theta_m=colN:deg{}",
-                    several ? "; tables of other rates are not joined: export what belongs "
-                              "together on one clock"
+                    several ? "; --join makes one of the tables of a file, and columns then "
+                              "have its numbers; of several files: export what belongs together "
+                              "on one clock"
                             : ""));
   }
 
@@ -140,7 +139,8 @@ class Planner {
     if (parts_.tables.empty()) {
       ask(fmt::format("no table has what rig '{}' needs; its channels must lie in one table",
                       name_of(*plan_.rig)),
-          "see the notes; state columns by --map, or merge the tables where they were written");
+          "see the notes; --join makes one of the tables of a file; state columns by --map, or "
+          "merge the tables where they were written");
     }
   }
 

@@ -24,12 +24,22 @@ struct ColumnSurvey {
   bool moves() const { return present > 0 && high > low; }
 };
 
+/// A table of a file that is a part of a joined one.
+struct TablePart {
+  std::size_t index = 0;                          ///< of the table in its file
+  std::size_t clock = 0;                          ///< its column of time
+  double clock_factor = 1.0, clock_offset = 0.0;  ///< to the joined clock
+  double longest_step = 0.0;                      ///< on the joined clock: what is longer is a gap
+  std::vector<std::size_t> columns;               ///< of the table, in the order of the joined one
+};
+
 struct TableSurvey {
   std::filesystem::path file;
   std::string reader;
   std::string path;       ///< of the table inside the file
   std::size_t index = 0;  ///< of the table in its file
   std::vector<ColumnSurvey> columns;
+  std::vector<TablePart> parts;  ///< of a joined table, the one whose clock it has first
   std::size_t rows = 0;
   std::size_t stride = 1;  ///< rows between two of the samples
   std::vector<std::string> notes;

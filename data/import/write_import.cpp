@@ -5,6 +5,7 @@
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/import.hpp"
 #include "import/import_parts.hpp"
+#include "import/joined_rows.hpp"
 #include "import/recording_rows.hpp"
 #include "import/short_names.hpp"
 #include "readers/toml_text.hpp"
@@ -46,6 +47,19 @@ class RowSink : public TableSink {
   std::vector<double> row_;
   std::size_t index_ = 0;
 };
+
+Result<void> read_rows(const FoundTable& table, const TableRequest& request, RecordingRows& rows,
+                       std::vector<std::string>& notes) {
+  if (table.survey.parts.empty()) {
+    RowSink sink(table, rows);
+    return read_tables(table.survey.file, request, sink);
+  }
+  JoinedRows sink(table, request.limits, rows);
+  if (auto read = read_tables(table.survey.file, request, sink); !read) return read;
+  if (auto joined = sink.join(); !joined) return joined;
+  for (std::string& note : sink.notes()) notes.push_back(std::move(note));
+  return {};
+}
 
 /// A text in a comment: one line, whatever stands in it.
 std::string comment(const std::string& text) {
@@ -147,8 +161,7 @@ Result<Imported> write_import(const ImportPlan& plan, const std::filesystem::pat
   Imported imported;
   for (const FoundTable& table : parts.tables) {
     RecordingRows rows(table, parts, plan.wish.split_s, folder);
-    RowSink sink(table, rows);
-    if (auto read = read_tables(table.survey.file, plan.wish.request, sink); !read) {
+    if (auto read = read_rows(table, plan.wish.request, rows, imported.notes); !read) {
       return tl::unexpected(read.error());
     }
     if (auto same = table.survey.check_same_file(); !same) return tl::unexpected(same.error());

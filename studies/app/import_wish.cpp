@@ -104,6 +104,7 @@ Result<data::ImportWish> import_wish(const Arguments& arguments) {
     wish.accept.push_back(code);
   }
   wish.tables = arguments.texts("table");
+  wish.join = arguments.has("join");
   const std::filesystem::path out = std::filesystem::path(arguments.text("out")) / "";
   wish.name = arguments.text("name", out.lexically_normal().parent_path().filename().string());
   wish.license = arguments.text("license");

@@ -35,6 +35,7 @@ struct ImportWish {
   std::map<std::string, double> constants;
   std::vector<ColumnChoice> choices;
   std::vector<std::string> tables;  ///< paths inside the files; empty: all that fit
+  bool join = false;                ///< tables of a file are of one recording
   std::optional<double> split_s;    ///< rests and pauses of so long end a recording
   std::vector<std::string> accept;  ///< codes of findings that are no mistake here
   std::string name;

@@ -109,6 +109,21 @@ def unsorted_file():
            ("slow", [column("time", T[::4], "s", True), column("temp", [20 + i for i in range(0, ROWS, 4)], "degC")]))
 
 
+def two_rates_file():
+    """The angle at 100 Hz, the torque at 50 Hz, between samples of the angle."""
+    w = Writer()
+    angle = w.group(w.channel(w.channel(0, "theta_m", "deg", 8, 32, REAL), "time", "s", 0, 64, REAL, kind=2, sync=1),
+                    ROWS, 12, "encoder")
+    torque = w.group(w.channel(w.channel(0, "tau", "Nm", 8, 32, REAL), "time", "s", 0, 64, REAL, kind=2, sync=1),
+                     ROWS // 2, 12, "sensor")
+    later = [t + 0.005 for t in T[::2]]
+    second = w.data_group(torque, w.block(b"DT", [], b"".join(struct.pack("<df", t, x) for t, x in zip(later, TAU[::2]))))
+    first = w.data_group(angle, w.block(b"DT", [], b"".join(struct.pack("<df", t, x) for t, x in zip(T, THETA))), second)
+    w.save("two_rates.mf4", first)
+    expect("two_rates.mf4", "mdf4", ("encoder", [column("time", T, "s", True), column("theta_m", single(THETA), "deg")]),
+           ("sensor", [column("time", later, "s", True), column("tau", single(TAU[::2]), "Nm")]))
+
+
 def number_forms():
     w = Writer()
     linear = w.conversion(1, [10.0, 0.25])
@@ -179,4 +194,4 @@ def refused():
 
 
 def make():
-    sorted_files(), unsorted_file(), number_forms(), invalid_samples(), texts_between(), refused()
+    sorted_files(), unsorted_file(), two_rates_file(), number_forms(), invalid_samples(), texts_between(), refused()

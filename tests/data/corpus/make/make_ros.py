@@ -28,6 +28,9 @@ JOINTS = "# the state of a set of joints\nstd_msgs/Header header\n\nstring[] nam
 OWN = "uint8 READY=1  # a constant\nfloat32 tau 0.5\nint16[2] counts\nstring<=8 note\nbool on\nInner inner\n" \
       + RULE + "MSG: bench_msgs/Inner\nint64 big\nuint8 small\n"
 
+WRENCH = "std_msgs/Header header\nWrench wrench\n" + RULE + "MSG: geometry_msgs/Wrench\nVector3 force\nVector3 torque\n" \
+         + RULE + "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n" + RULE + HEADER
+
 
 class Cdr:
     """A message: what is aligned, is so from behind the first four bytes."""
@@ -148,6 +151,21 @@ def mcap_files():
     refuse("circle.mcap", "lies in itself")
 
 
+def two_topics():
+    """A motor's state, and a sensor's wrench behind the gear, which logs every second one."""
+    heads = schema(1, "sensor_msgs/msg/JointState", JOINTS) + channel(7, 1, "/motor/joint_state")
+    heads += schema(2, "geometry_msgs/msg/WrenchStamped", WRENCH) + channel(8, 2, "/ft")
+    every = b"".join(message(7, i, joint_state(i, ("motor",))) + (message(8, i, wrench(i)) if i % 2 == 0 else b"")
+                     for i in range(ROWS))
+    write("two_topics.mcap", mcap(heads, every))
+    none = [0] * (ROWS // 2)
+    torque = [column("header.stamp", T[::2], "s", True)]
+    torque += [column(f"wrench.force.{a}", [1] * (ROWS // 2) if a == "z" else none, "N") for a in "xyz"]
+    torque += [column(f"wrench.torque.{a}", TAU[::2] if a == "z" else none, "Nm") for a in "xyz"]
+    expect("two_topics.mcap", "mcap", ("/motor/joint_state", [STAMPED, column("position.motor", THETA, "rad"),
+                                                              column("effort.motor", [0.5] * ROWS, "Nm")]), ("/ft", torque))
+
+
 def database(name, definitions, *topics):
     path = FILES / name
     db = sqlite3.connect(path)
@@ -207,4 +225,4 @@ def rosbags():
 
 
 def make():
-    mcap_files(), rosbags()
+    mcap_files(), two_topics(), rosbags()
