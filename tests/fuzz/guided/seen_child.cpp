@@ -1,0 +1,63 @@
+// Compiled without counters of its own: the instrumentation owns the names of their section.
+#include "seen_child.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+#include <pthread.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <sanitizer/common_interface_defs.h>
+
+extern "C" {
+extern unsigned char __start___sancov_cntrs[];
+extern unsigned char __stop___sancov_cntrs[];
+}
+
+namespace flexspline::fuzz {
+namespace {
+
+volatile char* found = nullptr;
+
+void* shared(std::size_t bytes) {
+  void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) std::abort();
+  return memory;
+}
+
+/// Whole pages of them: on those at either end there may be something else.
+void share_counters() {
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto from =
+      (reinterpret_cast<std::uintptr_t>(__start___sancov_cntrs) + page - 1) / page * page;
+  const auto to = reinterpret_cast<std::uintptr_t>(__stop___sancov_cntrs) / page * page;
+  if (to <= from) return;
+  void* copy = shared(to - from);
+  std::memcpy(copy, reinterpret_cast<void*>(from), to - from);
+  if (::mremap(copy, to - from, to - from, MREMAP_MAYMOVE | MREMAP_FIXED,
+               reinterpret_cast<void*>(from)) == MAP_FAILED) {
+    std::abort();
+  }
+}
+
+void tell_parent() { *found = 1; }
+
+}  // namespace
+
+void see_children() {
+  static const bool once = [] {
+    found = static_cast<volatile char*>(shared(1));
+    share_counters();
+    pthread_atfork(nullptr, nullptr, [] { __sanitizer_set_death_callback(tell_parent); });
+    return true;
+  }();
+  (void)once;
+}
+
+void check_children() {
+  if (*found != 0) std::abort();
+}
+
+}  // namespace flexspline::fuzz
