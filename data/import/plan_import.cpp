@@ -218,7 +218,7 @@ class Planner {
       const auto same_file = std::ranges::count_if(parts_.tables, [&](const FoundTable& other) {
         return other.survey.file == table.survey.file;
       });
-      if (same_file > 1) id += "-" + plain_id(table.survey.path);
+      if (same_file > 1) id.append("-").append(plain_id(table.survey.path));
       while (!taken.insert(id).second) id += "_";
       table.id = id;
     }
