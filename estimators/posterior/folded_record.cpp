@@ -14,6 +14,7 @@ constexpr double kSameMotion = 2.0;    // noises: cycles that differ by less rep
 constexpr std::size_t kMostHarmonics = 40;
 constexpr double kSignificance = 4.0;  // standard errors of a harmonic's amplitude
 constexpr std::size_t kFewest = 16;    // samples a cycle
+constexpr double kEdge = 2.0;          // widths of the smoother
 
 // Samples a cycle, where the motion repeats in whole samples and nothing is masked.
 std::optional<std::size_t> samples_per_cycle(const PreparedRecord& record) {
@@ -87,13 +88,37 @@ void follow_harmonics(const std::vector<double>& mean, double omega, double sigm
   }
 }
 
-// Where the direction of motion is not known, nothing is learned of a law that may jump with it.
-void drop_reversals(FoldedRecord& cycle) {
+double speed_sigma(const std::vector<MotionError>& motion) {
   double variance = 0.0;
-  for (const auto& error : cycle.motion) {
-    variance += std::pow(error.angular_frequency * error.sigma, 2);
-  }
-  const double slowest = kSignificance * std::sqrt(variance);
+  for (const auto& error : motion) variance += std::pow(error.angular_frequency * error.sigma, 2);
+  return std::sqrt(variance);
+}
+
+// What a smoother leaves of white noise: its share of the variance, the error of the speed, and how
+// many samples at either end know their neighbours on one side alone.
+struct Smoothing {
+  double speed_sigma = 0.0;
+  std::size_t edge = 0;
+};
+
+// One that leaves the share s2 passes frequencies up to w = pi s2 / interval; the error of the
+// speed is that of the position by w / sqrt(3).
+Smoothing smoothing_of(const PreparedRecord& record) {
+  const auto& time = record.smooth.motion.time;
+  if (!(record.smooth.motion_noise > 0.0)) return {};
+  const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  const double error = rms(record.smooth.motion_error);
+  const double share = std::pow(error / record.smooth.motion_noise, 2);
+  const auto most = static_cast<double>(time.size()) / 10.0;
+  // A Fourier series has no ends.
+  const double edge = record.smooth.steady ? 0.0 : std::min(kEdge / share, most);
+  return {error * std::numbers::pi * share / interval / std::numbers::sqrt3,
+          static_cast<std::size_t>(edge)};
+}
+
+// Where the direction of motion is not known, nothing is learned of a law that may jump with it.
+void drop_reversals(FoldedRecord& cycle, double speed_sigma) {
+  const double slowest = kSignificance * speed_sigma;
   std::size_t kept = 0;
   for (std::size_t j = 0; j < cycle.time.size(); ++j) {
     if (std::abs(cycle.velocity[j]) < slowest) continue;
@@ -112,7 +137,9 @@ void drop_reversals(FoldedRecord& cycle) {
 FoldedRecord one_by_one(const PreparedRecord& record) {
   FoldedRecord all;
   const auto& m = record.smooth.motion;
+  const Smoothing smoothing = smoothing_of(record);
   for (const std::size_t i : record.rows) {
+    if (i < smoothing.edge || i + smoothing.edge >= m.time.size()) continue;
     all.time.push_back(m.time[i]);
     all.position.push_back(m.position[i]);
     all.velocity.push_back(m.velocity[i]);
@@ -121,6 +148,8 @@ FoldedRecord one_by_one(const PreparedRecord& record) {
   }
   all.noise.sigma = record.effort_noise;
   all.motion_sigma = record.motion_sigma;
+  all.speed_sigma = smoothing.speed_sigma;
+  drop_reversals(all, all.speed_sigma);
   return all;
 }
 
@@ -159,7 +188,7 @@ FoldedRecord folded(const PreparedRecord& record) {
   cycle.torque = std::move(torque.mean);
   cycle.noise = noise_of(cycle, std::move(torque.differences));
   cycle.noise.sigma /= std::sqrt(cycles);
-  drop_reversals(cycle);
+  drop_reversals(cycle, speed_sigma(cycle.motion));
   return cycle;
 }
 

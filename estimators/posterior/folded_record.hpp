@@ -24,6 +24,7 @@ struct FoldedRecord {
   ColouredNoise noise;        ///< of torque as it stands here, Nm
   bool repeats = false;       ///< noise comes from the repeats
   double motion_sigma = 0.0;  ///< rad, of every row on its own; 0 where `motion` holds the errors
+  double speed_sigma = 0.0;   ///< rad/s, likewise, of the reconstructed speed
   std::vector<MotionError> motion{};
 };
 

@@ -10,8 +10,6 @@
 namespace flexspline::estimators {
 namespace {
 
-constexpr double kMisses = 1.5;  // noises that are left where h is refused
-
 // Root mean squares over the domain of the distance of ln h of the class from the middle of its
 // band, and of the band's half width.
 struct Moved {
@@ -48,7 +46,7 @@ JudgedFit judged(const TorsionPosterior& posterior, const TorsionLayout& layout,
   auto& verdict = fit.identifiability;
   const auto h = std::ranges::find(fit.bands, "h", &FunctionBand::function);
   if (h == fit.bands.end()) return fit;
-  if (posterior.misfit > kMisses) {
+  if (posterior.misfit > kRefutedNoises) {
     fit.bands.erase(h);
     verdict.verdict = "not_identifiable";
     verdict.says = "h is refused: " + misfit_text(posterior);

@@ -23,12 +23,10 @@ constexpr double kFirstOfH = 1.0;         // h bends where f and g^-1 leave it t
 constexpr double kFirstOfFreeH = 1e-4;    // or h bends first
 constexpr double kFurthest = 0.5;         // of ln h in one step
 constexpr int kSteps = 25;                // linearisations
-constexpr int kStepsOfMisfit = 2;         // after the noise was taken from a misfit
+constexpr int kStepsOfMisfit = 2;         // of a law that is refuted, after its noise was taken
 constexpr int kRounds = 3;                // of the precisions, each
 constexpr double kResolved = 2e-4;  // of the largest torque: less noise than the splines' own error
-constexpr double kMisses = 1.15;    // noises that are left where a law misses something
 constexpr double kSettled = 0.05;   // standard deviations that a step may still move by
-constexpr double kGains = 0.01;     // of what is left, in a step that brings a misfit nearer
 constexpr double kRefuted = 4.0;    // standard deviations of a sum of squares
 
 constexpr int kFamilyOfH = 3;
@@ -83,7 +81,9 @@ struct Normal {
 RegressionRows whitened(const FoldedRecord& one, RegressionRows rows) {
   if (one.motion_sigma > 0.0) {
     const Eigen::VectorXd weight =
-        (1.0 + (rows.along_motion * (one.motion_sigma / one.noise.sigma)).array().square()).rsqrt();
+        (1.0 + (rows.along_motion * (one.motion_sigma / one.noise.sigma)).array().square() +
+         (rows.along_speed * (one.speed_sigma / one.noise.sigma)).array().square())
+            .rsqrt();
     rows.jacobian = weight.asDiagonal() * rows.jacobian;
     rows.target = rows.target.cwiseProduct(weight);
   }
@@ -174,25 +174,45 @@ std::vector<bool> refuted(TorsionPosterior& model, const std::vector<FoldedRecor
   return list;
 }
 
-std::array<double, 2> value_of(const TorsionPosterior& model, const RichSpline& spline,
-                               Eigen::Index first, double x, double jump) {
+Eigen::RowVectorXd row_of(const TorsionPosterior& model, const RichSpline& spline,
+                          Eigen::Index first, double x) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(model.law.mean.size());
   Eigen::RowVectorXd own(spline.size());
   spline.value(x, own);
   row.segment(first, own.size()) = own;
-  row[model.at.jump] = jump;
+  return row;
+}
+
+// g^-1 midway between the slowest speeds seen both ways: between these nothing is known, and a
+// constant may change hands with the offset.
+Eigen::RowVectorXd midway(const TorsionPosterior& model) {
+  const auto& spline = model.laws.g_inverse;
+  return 0.5 * (row_of(model, spline, model.at.g, model.slowest) +
+                row_of(model, spline, model.at.g, -model.slowest));
+}
+
+std::array<double, 2> value_of(const TorsionPosterior& model, const RichSpline& spline,
+                               Eigen::Index first, double x, const Eigen::RowVectorXd& row) {
   double variance = row.dot(model.law.covariance * row.transpose());
   // Beyond the ends the prior goes on: the second derivative wanders as at the roughest place.
   const double out = spline.beyond(x);
   if (out > 0.0) {
     double precision = std::numeric_limits<double>::infinity();
     for (const auto& group : model.groups) {
-      const bool of_it = group.first >= first && group.first < first + own.size();
+      const bool of_it = group.first >= first && group.first < first + spline.size();
       if (of_it) precision = std::min(precision, group.precision);
     }
     variance += out * out * out / 3.0 / precision;
   }
   return {row.dot(model.law.mean), std::sqrt(std::max(0.0, variance))};
+}
+
+double slowest_of(const std::vector<FoldedRecord>& records) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const auto& one : records) {
+    for (const double v : one.velocity) slowest = std::min(slowest, std::abs(v));
+  }
+  return slowest;
 }
 
 Result<RichLaws> rich_laws(const std::vector<PreparedRecord>& prepared,
@@ -209,8 +229,9 @@ Result<RichLaws> rich_laws(const std::vector<PreparedRecord>& prepared,
   const Ranges ranges = ranges_of(prepared, false);
   const double low = ranges.lowest_motion;
   const double high = ranges.highest_motion;
+  const bool travels = prepared.front().record.travels;  // then f(0) = 0 is no gauge
   return RichLaws{
-      .f = RichSpline(low, high, kMotionIntervals, kFineMotion * ranges.motion),
+      .f = RichSpline(low, high, kMotionIntervals, travels ? 0.0 : kFineMotion * ranges.motion),
       .g_inverse = RichSpline(-fastest, fastest, kSpeedIntervals, kFineSpeed * fastest),
       .log_h = RichSpline(low, high, kModulationIntervals, kFineMotion * ranges.motion)};
 }
@@ -227,20 +248,16 @@ double left_in_noises(const Normal& normal, const Eigen::VectorXd& c) {
 }
 
 // Linearises in turn at c and takes the law there, until neither moves by what the noise, or more
-// where more is left, lets them be known to, or what is left is a misfit that stays. Returns the
-// last equations.
+// where more is left, lets them be known to. Returns the last equations.
 Normal settle(TorsionPosterior& model, const TorsionRegression& all,
               const std::vector<FoldedRecord>& records, int steps, Eigen::VectorXd& c) {
-  double before = std::numeric_limits<double>::infinity();
   for (int step = 1;; ++step) {
     Normal normal = normal_equations(all, records, c);
     model.law = restricted_likelihood(normal.information, normal.gradient, model.groups, kRounds);
     const Eigen::VectorXd moved = model.law.mean - c;
     c += moved * shortened(model, moved);
     const double left = left_in_noises(normal, model.law.mean);
-    const bool stays = left > kMisses && left > (1.0 - kGains) * before;
-    before = left;
-    if (stays || step >= steps) return normal;
+    if (step >= steps) return normal;
     if (largest_move(model, moved) < kSettled * std::max(1.0, left)) return normal;
   }
 }
@@ -288,7 +305,8 @@ TorsionPosterior concluded(const TorsionPosterior& empty, const TorsionRegressio
     noise_taken = true;
   }
   if (noise_taken)
-    settle(best.model, all, records, best.misses() ? kStepsOfMisfit : kSteps, best.c);
+    settle(best.model, all, records, best.model.misfit > kRefutedNoises ? kStepsOfMisfit : kSteps,
+           best.c);
   best.model.law.covariance = unconditional_covariance(best.model.law, best.model.groups);
   return std::move(best.model);
 }
@@ -296,15 +314,23 @@ TorsionPosterior concluded(const TorsionPosterior& empty, const TorsionRegressio
 }  // namespace
 
 std::array<double, 2> TorsionPosterior::f_at(double phi) const {
-  return value_of(*this, laws.f, at.f, phi, 0.0);
+  Eigen::RowVectorXd row = row_of(*this, laws.f, at.f, phi);
+  if (travels) {
+    row[at.offset] = 1.0;
+    row += midway(*this);
+  }
+  return value_of(*this, laws.f, at.f, phi, row);
 }
 
 std::array<double, 2> TorsionPosterior::g_inverse_at(double speed) const {
-  return value_of(*this, laws.g_inverse, at.g, speed, speed > 0.0 ? 1.0 : speed < 0.0 ? -1.0 : 0.0);
+  if (speed == 0.0) return {0.0, 0.0};
+  Eigen::RowVectorXd row = row_of(*this, laws.g_inverse, at.g, speed) - midway(*this);
+  row[at.jump] = speed > 0.0 ? 1.0 : -1.0;
+  return value_of(*this, laws.g_inverse, at.g, speed, row);
 }
 
 std::array<double, 2> TorsionPosterior::log_h_at(double phi) const {
-  return value_of(*this, laws.log_h, at.h, phi, 0.0);
+  return value_of(*this, laws.log_h, at.h, phi, row_of(*this, laws.log_h, at.h, phi));
 }
 
 Result<TorsionPosterior> torsion_posterior(const std::vector<PreparedRecord>& prepared,
@@ -317,7 +343,11 @@ Result<TorsionPosterior> torsion_posterior(const std::vector<PreparedRecord>& pr
   const auto laws = rich_laws(prepared, records, layout, p);
   if (!laws) return tl::unexpected(laws.error());
   const RegressionColumns at = regression_columns(*laws, records, with_h);
-  TorsionPosterior model{.laws = *laws, .at = at, .groups = groups_of(*laws, at)};
+  TorsionPosterior model{.laws = *laws,
+                         .at = at,
+                         .travels = prepared.front().record.travels,
+                         .slowest = slowest_of(records),
+                         .groups = groups_of(*laws, at)};
   const TorsionRegression all(model.laws, model.at, records);
   model = concluded(model, all, records, prepared);
   if (!model.law.mean.allFinite() || !model.law.covariance.allFinite()) {

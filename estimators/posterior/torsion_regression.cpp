@@ -96,7 +96,7 @@ RegressionRows TorsionRegression::linearise(std::size_t r, const Eigen::VectorXd
   const FoldedRecord& one = records_[r];
   const auto n = static_cast<Eigen::Index>(one.time.size());
   RegressionRows rows{decltype(RegressionRows::jacobian)::Zero(n, at_.size), Eigen::VectorXd(n),
-                      Eigen::VectorXd(n)};
+                      Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Place& place = places_[r][k];
@@ -115,6 +115,7 @@ RegressionRows TorsionRegression::linearise(std::size_t r, const Eigen::VectorXd
     fill_motion(one, k, p, row.segment(motion_[r], errors_of(one)));
     rows.target[i] = one.torque[k] - p.damping * p.speed * p.log_h;
     rows.along_motion[i] = p.along_motion;
+    rows.along_speed[i] = p.along_speed;
   }
   return rows;
 }

@@ -23,11 +23,13 @@ struct RegressionColumns {
 RegressionColumns regression_columns(const RichLaws& laws, const std::vector<FoldedRecord>& records,
                                      bool with_h);
 
-/// Eq. (4) at the rows of a record: J, what J c stands for, Nm, and d tau/d phi, Nm/rad.
+/// Eq. (4) at the rows of a record: J, what J c stands for, Nm, d tau/d phi, Nm/rad, and
+/// d tau/d phi', Nm s/rad.
 struct RegressionRows {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
   Eigen::VectorXd target;
   Eigen::VectorXd along_motion;
+  Eigen::VectorXd along_speed;
 };
 
 /// tau = o + f(phi) + g^-1(phi'/h(phi)) + J phi'' - d d tau/dt + e of all records, linearised in ln

@@ -40,15 +40,14 @@ void take(const Intervals& found, Estimate& estimate) {
   estimate.notes.insert(estimate.notes.end(), found.notes.begin(), found.notes.end());
 }
 
-/// Bands and verdict by what the recordings say without the classes of the laws. Not for motions
-/// that travel, nor for zeros of recordings.
+/// Bands and verdict by what the recordings say without the classes of the laws. Not for zeros of
+/// recordings.
 void judge(const StaticFit& begun, const TrajectoryFit& fit, Estimate& estimate) {
   const auto& records = begun.records;
   const TorsionLayout& layout = fit.at.layout;
-  if (records.front().record.travels || layout.free_terms().zeros) {
+  if (layout.free_terms().zeros) {
     estimate.notes.emplace_back(
-        "bands within the class: a mixed model is not made of motions that travel, nor of zeros "
-        "of recordings");
+        "bands within the class: a mixed model is not made of zeros of recordings");
     return;
   }
   // Where trajectories are simulated from the static fit, both have the same.

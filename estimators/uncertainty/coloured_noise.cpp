@@ -56,7 +56,7 @@ Sums sums_of(std::span<const TimedSeries> series, const ColouredNoise& noise) {
     filter.whiten(value);
     const Eigen::Map<const Eigen::VectorXd> v(value.data(),
                                               static_cast<Eigen::Index>(value.size()));
-    Eigen::MatrixXd slope = one.slope;
+    Eigen::MatrixXd slope = width > 0 ? one.slope : Eigen::MatrixXd(v.size(), 0);
     for (Eigen::Index k = 0; k < width; ++k) filter.whiten({slope.col(k).data(), value.size()});
     sums.by_parameters.information += slope.transpose() * slope;
     sums.by_parameters.gradient += slope.transpose() * v;

@@ -1,6 +1,6 @@
 // How often the 95 % bands of f, g^-1 and h hold the truth, over drawn gears of classes that no
-// estimator fits: flexspline_band_coverage [replicates [threads [first [method options
-// key=value]]]].
+// estimator fits: flexspline_band_coverage [replicates [threads [first [options key=value]]]].
+// motion=travels, no option of the method: the angle travels and h is 1.
 #include <cstdio>
 #include <cstdlib>
 
@@ -27,20 +27,24 @@ int run(int argc, char** argv) {
     const auto at = text.find('=');
     options.words[std::string(text.substr(0, at))] = text.substr(at + 1);
   }
+  const bool travels = options.words.erase("motion") > 0;
+  const auto families =
+      std::span(kGearFamilies).first(travels ? kFamiliesOfTorque : kGearFamilies.size());
   const auto tallies =
-      band_coverage(kGearFamilies, argument(1, 25), argument(3, 1), argument(2, 2), options);
+      band_coverage(families, argument(1, 25), argument(3, 1), argument(2, 2), options,
+                    travels ? CoverageMotion::travels : CoverageMotion::torsion);
   std::printf(
       "covered %%: f, g^-1, h; sets: h printed, identifiable, overconfident, failed; medians of "
       "rms "
       "half widths (share of %g Nm, h itself), of the error of h, s\n",
       kPeak);
-  for (std::size_t k = 0; k < kGearFamilies.size(); ++k) {
+  for (std::size_t k = 0; k < families.size(); ++k) {
     CoverageTally whole;
     for (std::size_t c = 0; c < kNoiseColours.size(); ++c) {
-      print(kGearFamilies[k].name, kNoiseColours[c].name, tallies[k][c]);
+      print(families[k].name, kNoiseColours[c].name, tallies[k][c]);
       whole.add(tallies[k][c]);
     }
-    print(kGearFamilies[k].name, "all", whole);
+    print(families[k].name, "all", whole);
   }
   return 0;
 }

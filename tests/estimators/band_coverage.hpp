@@ -38,6 +38,10 @@ inline const std::array<NoiseColour, 4> kNoiseColours = {{
      0.005},
 }};
 
+/// A torsion, or an angle that travels: no cycle of it counts as a repeat, h is 1, and f holds the
+/// torque's offset.
+enum class CoverageMotion { torsion, travels };
+
 /// A set of recordings of a drawn gear, with its laws as the recordings show them. The angle's zero
 /// and the torque's are off by up to 3 and 2 %, which moves along the gauges of the torsion law:
 /// f(0) = 0 and h(0) = 1 where the recorded angle is zero.
@@ -117,13 +121,15 @@ inline BandScore score_of(const FunctionBand& band, const Shape& truth, double u
 }
 
 inline CoverageSet coverage_set(const GearFamily& family, const NoiseColour& noise,
-                                unsigned replicate) {
+                                unsigned replicate,
+                                CoverageMotion motion = CoverageMotion::torsion) {
   std::vector<unsigned> words(family.name.begin(), family.name.end());
   words.insert(words.end(), noise.name.begin(), noise.name.end());
   words.push_back(replicate);
   std::seed_seq seeds(words.begin(), words.end());
   Draw draw(seeds);
-  const DrawnGear gear = drawn_gear(family, draw);
+  DrawnGear gear = drawn_gear(family, draw);
+  if (motion == CoverageMotion::travels) gear.log_h = [](double) { return 0.0; };
   const auto truth = bench_truth(gear);
   const bool off = replicate % 2 == 1;
   const double zero = off ? kAmplitude * uniform(draw, -kLargestZero, kLargestZero) : 0.0;
@@ -143,6 +149,12 @@ inline CoverageSet coverage_set(const GearFamily& family, const NoiseColour& noi
   }
   CoverageSet set;
   set.records = *torsion_records(data::paper_bench("coverage", std::move(recordings)));
+  if (motion == CoverageMotion::travels) {
+    for (TorsionRecord& one : set.records) one.travels = true;
+    set.f = [=](double phi) { return truth.stiffness(phi - zero) + offset; };
+    set.g_inverse = truth.damping;
+    return set;
+  }
   const double at_zero = std::exp(truth.log_modulation(-zero));
   set.f = [=](double phi) { return truth.stiffness(phi - zero) - truth.stiffness(-zero); };
   set.g_inverse = [=](double w) { return truth.damping(w / at_zero); };
@@ -220,17 +232,17 @@ inline double median(std::vector<double> values) {
 
 /// Every set of these families and colours, `replicates` of each from `first` on; a row a family, a
 /// column a colour.
-inline std::vector<std::vector<CoverageTally>> band_coverage(std::span<const GearFamily> families,
-                                                             unsigned replicates, unsigned first,
-                                                             unsigned threads,
-                                                             const Options& options = {}) {
+inline std::vector<std::vector<CoverageTally>> band_coverage(
+    std::span<const GearFamily> families, unsigned replicates, unsigned first, unsigned threads,
+    const Options& options = {}, CoverageMotion motion = CoverageMotion::torsion) {
   const std::size_t colours = kNoiseColours.size();
   std::vector<SetScore> scores(families.size() * colours * replicates);
   in_parallel(scores.size(), threads, [&](std::size_t k) {
     const std::size_t cell = k / replicates;
     const auto replicate = first + static_cast<unsigned>(k % replicates);
     scores[k] = score(
-        coverage_set(families[cell / colours], kNoiseColours[cell % colours], replicate), options);
+        coverage_set(families[cell / colours], kNoiseColours[cell % colours], replicate, motion),
+        options);
   });
   std::vector<std::vector<CoverageTally>> tallies(families.size(),
                                                   std::vector<CoverageTally>(colours));

@@ -27,6 +27,23 @@ TEST(BandCoverage, OfGearsOfNoEstimatorsClass) {
   EXPECT_GT(all.identifiable, all.sets / 4);
 }
 
+// Nothing of a joint that travels counts as a repeat: noise comes from what is left.
+TEST(BandCoverage, OfJointsThatTravel) {
+  const auto tallies = band_coverage(std::span(kGearFamilies).first(kFamiliesOfTorque), 1, 6101, 2,
+                                     {.words = {{"simulate", "torque"}}}, CoverageMotion::travels);
+  CoverageTally all;
+  for (const auto& family : tallies) {
+    for (const auto& colour : family) all.add(colour);
+  }
+  EXPECT_EQ(all.failed, 0);
+  EXPECT_EQ(all.printed, 0);  // no h
+  for (const auto& [name, tally] : {std::pair{"f", all.f}, {"g_inverse", all.g_inverse}}) {
+    std::printf("%s: %.4f of %d\n", name, share(tally), tally.asked);
+    EXPECT_GE(share(tally), 0.90) << name;
+    EXPECT_LE(share(tally), 0.995) << name;
+  }
+}
+
 // Where f has its kink on the gauge point, f(0) = 0, a kink that is smoothed moves f everywhere:
 // with knots no denser there the same sets have 78 %.
 TEST(BandCoverage, OfAKinkOnTheGaugePoint) {

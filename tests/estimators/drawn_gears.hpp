@@ -205,6 +205,9 @@ inline constexpr std::array kGearFamilies = {
     GearFamily{"all rough", false, kinked_spring, coulomb_damper, bumped_modulation},
 };
 
+/// Of which the first have an f or g^-1 of their own, and the rest an h.
+inline constexpr std::size_t kFamiliesOfTorque = 12;
+
 inline DrawnGear drawn_gear(const GearFamily& family, Draw& draw) {
   DrawnGear gear;
   gear.f = family.f(draw);
