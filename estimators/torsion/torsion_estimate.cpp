@@ -41,13 +41,19 @@ void take(const Intervals& found, Estimate& estimate) {
 }
 
 /// Bands and verdict by what the recordings say without the classes of the laws. Not for zeros of
-/// recordings.
+/// recordings, nor for a joint that travels by another law: no repeats tell its noise.
 void judge(const StaticFit& begun, const TrajectoryFit& fit, Estimate& estimate) {
   const auto& records = begun.records;
   const TorsionLayout& layout = fit.at.layout;
   if (layout.free_terms().zeros) {
     estimate.notes.emplace_back(
         "bands within the class: a mixed model is not made of zeros of recordings");
+    return;
+  }
+  if (records.front().record.travels && begun.misses) {
+    estimate.notes.emplace_back(
+        "bands within the class: the law is refuted and nothing repeats, so that no band holds "
+        "what is missing from it");
     return;
   }
   // Where trajectories are simulated from the static fit, both have the same.

@@ -11,7 +11,7 @@ namespace {
 // the share of a function has a standard deviation of some 1.5 points.
 TEST(BandCoverage, OfGearsOfNoEstimatorsClass) {
   const auto tallies =
-      band_coverage(kGearFamilies, 2, 5001, 2, {.words = {{"simulate", "torque"}}});
+      band_coverage(kGearFamilies, 2, 5001, 2, {.numbers = {}, .words = {{"simulate", "torque"}}});
   CoverageTally all;
   for (const auto& family : tallies) {
     for (const auto& colour : family) all.add(colour);
@@ -29,8 +29,9 @@ TEST(BandCoverage, OfGearsOfNoEstimatorsClass) {
 
 // Nothing of a joint that travels counts as a repeat: noise comes from what is left.
 TEST(BandCoverage, OfJointsThatTravel) {
-  const auto tallies = band_coverage(std::span(kGearFamilies).first(kFamiliesOfTorque), 1, 6101, 2,
-                                     {.words = {{"simulate", "torque"}}}, CoverageMotion::travels);
+  const auto tallies =
+      band_coverage(std::span(kGearFamilies).first(kFamiliesOfTorque), 1, 6101, 2,
+                    {.numbers = {}, .words = {{"simulate", "torque"}}}, CoverageMotion::travels);
   CoverageTally all;
   for (const auto& family : tallies) {
     for (const auto& colour : family) all.add(colour);
@@ -49,7 +50,8 @@ TEST(BandCoverage, OfJointsThatTravel) {
 TEST(BandCoverage, OfAKinkOnTheGaugePoint) {
   const auto family =
       std::ranges::find(kGearFamilies, std::string_view("f with |x|"), &GearFamily::name);
-  const auto tallies = band_coverage({&*family, 1}, 4, 401, 2, {.words = {{"simulate", "torque"}}});
+  const auto tallies =
+      band_coverage({&*family, 1}, 4, 401, 2, {.numbers = {}, .words = {{"simulate", "torque"}}});
   CoverageTally all;
   for (const auto& colour : tallies.front()) all.add(colour);
   EXPECT_EQ(all.failed, 0);
