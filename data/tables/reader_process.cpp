@@ -1,6 +1,7 @@
 #include "tables/reader_process.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -83,6 +84,7 @@ void serve_reader(const TableReaderRow& reader, const std::filesystem::path& pat
   for (const int one : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) {
     std::signal(one, SIG_DFL);
   }
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // the program may be ended while this goes round in a circle
   bound_process(request.limits);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
