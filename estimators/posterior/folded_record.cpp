@@ -15,6 +15,7 @@ constexpr std::size_t kMostHarmonics = 40;
 constexpr double kSignificance = 4.0;  // standard errors of a harmonic's amplitude
 constexpr std::size_t kFewest = 16;    // samples a cycle
 constexpr double kEdge = 2.0;          // widths of the smoother
+constexpr double kSlow = 0.1;          // of the fastest: speeds that may be left out
 
 // Samples a cycle, where the motion repeats in whole samples and nothing is masked.
 std::optional<std::size_t> samples_per_cycle(const PreparedRecord& record) {
@@ -108,7 +109,7 @@ Smoothing smoothing_of(const PreparedRecord& record) {
   if (!(record.smooth.motion_noise > 0.0)) return {};
   const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const double error = rms(record.smooth.motion_error);
-  const double share = std::pow(error / record.smooth.motion_noise, 2);
+  const double share = std::min(1.0, std::pow(error / record.smooth.motion_noise, 2));
   const auto most = static_cast<double>(time.size()) / 10.0;
   // A Fourier series has no ends.
   const double edge = record.smooth.steady ? 0.0 : std::min(kEdge / share, most);
@@ -117,8 +118,11 @@ Smoothing smoothing_of(const PreparedRecord& record) {
 }
 
 // Where the direction of motion is not known, nothing is learned of a law that may jump with it.
+// The faster rows stay, however little is known of the speed.
 void drop_reversals(FoldedRecord& cycle, double speed_sigma) {
-  const double slowest = kSignificance * speed_sigma;
+  double fastest = 0.0;
+  for (const double v : cycle.velocity) fastest = std::max(fastest, std::abs(v));
+  const double slowest = std::min(kSignificance * speed_sigma, kSlow * fastest);
   std::size_t kept = 0;
   for (std::size_t j = 0; j < cycle.time.size(); ++j) {
     if (std::abs(cycle.velocity[j]) < slowest) continue;
@@ -138,8 +142,12 @@ FoldedRecord one_by_one(const PreparedRecord& record) {
   FoldedRecord all;
   const auto& m = record.smooth.motion;
   const Smoothing smoothing = smoothing_of(record);
+  const auto at_an_edge = [&](std::size_t i) {
+    return i < smoothing.edge || i + smoothing.edge >= m.time.size();
+  };
+  const bool inner = !std::ranges::all_of(record.rows, at_an_edge);
   for (const std::size_t i : record.rows) {
-    if (i < smoothing.edge || i + smoothing.edge >= m.time.size()) continue;
+    if (inner && at_an_edge(i)) continue;
     all.time.push_back(m.time[i]);
     all.position.push_back(m.position[i]);
     all.velocity.push_back(m.velocity[i]);
