@@ -227,7 +227,9 @@ TEST_F(Pullers, ASlowCaseHoldsUpNobody) {
   const auto store = CaseStore::open(folder_.path());
   ASSERT_TRUE(store);
   EXPECT_EQ(store->size(), 200U);
-  EXPECT_GT(own->computed, 130U) << "with fixed halves it had 100";
+  // On a busy machine either may have come to the slow one.
+  EXPECT_GT(std::max<std::size_t>(own->computed, 200 - own->computed), 130U)
+      << "with fixed halves each had 100";
 }
 
 TEST_F(Pullers, WhatAKilledOneHadIsTakenByTheOthers) {
