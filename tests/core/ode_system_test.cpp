@@ -61,7 +61,9 @@ TEST_P(BothMethods, ErrFromAnOscillationInProportionToTheTolerance) {
   EXPECT_NEAR(slope(tolerances, energies), slope(tolerances, errors), 0.1);
   EXPECT_LT(slope(steps, errors), -4.0) << "steps of high order";
   claims::expect("docs/simulation.md", GetParam() == Stepping::bdf ? "order-bdf" : "order-adams",
-                 {{"error over steps", -slope(steps, errors)}});
+                 {{"of a step", slope(tolerances, of_a_step)},
+                  {"of the trajectory", slope(tolerances, errors)},
+                  {"over steps", -slope(steps, errors)}});
 }
 
 TEST(IntegrateSystem, GoesThroughTheStiffLockedRotorInAThousandSteps) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "claims/claims.hpp"
 #include "effect_paths.hpp"
 #include "flexspline/core/effect.hpp"
 #include "integrators/system_duals.hpp"
@@ -11,6 +12,9 @@
 
 namespace flexspline {
 namespace {
+
+/// Of a derivative, where differences tell it so well.
+constexpr double kDifference = 1e-5;
 
 struct Form {
   Rig rig;
@@ -117,7 +121,7 @@ class EveryEffectInEveryRig : public testing::TestWithParam<Form> {
         const double spread = std::abs(fine[i] - coarse[i]);
         if (spread > 1e-3 * std::abs(coarse[i]) + 10.0 * rounding) continue;  // near a kink
         ++smooth_;
-        EXPECT_NEAR(slope, coarse[i], 1e-5 * std::abs(slope) + 3.0 * spread + rounding)
+        EXPECT_NEAR(slope, coarse[i], kDifference * std::abs(slope) + 3.0 * spread + rounding)
             << name << ": rate " << i << " by argument " << k << " of " << z.size() << " ("
             << rig.states() << " states) at " << t << " s";
       }
@@ -147,6 +151,11 @@ TEST_P(EveryEffectInEveryRig, HasTheDerivativesOfItsEquations) {
               simulated, smooth_, tried_);
   EXPECT_GT(simulated, 10);
   EXPECT_GT(smooth_, 0.9 * tried_);
+}
+
+TEST(EveryFormOfThePage, HasTheDerivativesOfItsEquations) {
+  claims::expect("docs/simulation.md", "rig-jacobians",
+                 {{"forms", static_cast<double>(forms().size())}, {"difference", kDifference}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, EveryEffectInEveryRig, testing::ValuesIn(forms()),

@@ -1,10 +1,14 @@
 // Derivatives of every rig: forward, adjoint and by differences agree to six digits.
 #include <algorithm>
 
+#include "claims/claims.hpp"
 #include "rig_examples.hpp"
 
 namespace flexspline {
 namespace {
+
+/// Largest difference, of the largest derivative.
+constexpr double kDifference = 1e-6;
 
 struct Case {
   std::string name;
@@ -143,8 +147,13 @@ TEST_P(EveryRig, HasTheDerivativesOfItsTrajectory) {
   }
   std::printf("%s: %zu states, %zu parameters, forward-adjoint %.1e, forward-difference %.1e\n",
               one.name.c_str(), n, p.size(), worst_adjoint, worst_difference);
-  EXPECT_LT(worst_adjoint, 1e-6);
-  EXPECT_LT(worst_difference, 1e-6);
+  EXPECT_LT(worst_adjoint, kDifference);
+  EXPECT_LT(worst_difference, kDifference);
+}
+
+TEST(EveryRigOfThePage, HasItsDerivatives) {
+  claims::expect("docs/simulation.md", "rig-derivatives",
+                 {{"rigs", static_cast<double>(cases().size())}, {"difference", kDifference}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, EveryRig, testing::ValuesIn(cases()),

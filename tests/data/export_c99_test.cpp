@@ -1,4 +1,5 @@
 // The C that is written, compiled by the compilers at hand, against our own equations.
+#include "claims/claims.hpp"
 #include "export/c_effects.hpp"
 #include "export_fixture.hpp"
 #include "flexspline/core/effect_path.hpp"
@@ -6,6 +7,9 @@
 
 namespace flexspline::data {
 namespace {
+
+/// Of a rate or a state, or absolute where it is small.
+constexpr double kDifference = 1e-9;
 
 constexpr const char* kFlags = "-std=c99 -Wall -Wextra -pedantic -Werror -O1 -fPIC -shared";
 
@@ -92,7 +96,8 @@ void expect_same_rates(const RigModel& model, const std::string& words,
     system->rate(1.3, y, p, expected);
     const auto got = c.rates(1.3, y, {0.3, 2.0}, slope);
     for (std::size_t i = 0; i < y.size(); ++i) {
-      EXPECT_NEAR(got[i], expected[i], 1e-9 * (std::abs(expected[i]) + 1.0)) << words << " " << i;
+      EXPECT_NEAR(got[i], expected[i], kDifference * (std::abs(expected[i]) + 1.0))
+          << words << " " << i;
     }
   }
 }
@@ -125,6 +130,7 @@ TEST_P(OnARig, RatesOfEveryEffectAreOurs) {
   }
   EXPECT_GT(carried_effects, 12u);
   expect_same_rates(model, "all");
+  claims::expect("docs/export.md", "c-rates", {{"difference", kDifference}});
 }
 
 TEST_P(OnARig, FrictionAcrossTheGearIsOurs) {
@@ -148,10 +154,11 @@ TEST(ExportC99, StepsGoWhereOurIntegrationGoes) {
   const CDrive c(model);
   ASSERT_TRUE(c);
   constexpr double kStep = 1e-3;
+  constexpr int kSteps = 1500;
   const auto torque = [](int k) { return 0.4 * std::sin(2.0 * k * kStep) + 0.2; };
   std::vector<double> state(5, 0.0);
   std::vector<double> y(4, 0.0);
-  for (int k = 0; k < 1500; ++k) {
+  for (int k = 0; k < kSteps; ++k) {
     ASSERT_EQ(c.step(state, {torque(k), 0.0}, {torque(k + 1), 0.0}, kStep), 0);
     RigInputs inputs;
     const double rise = (torque(k + 1) - torque(k)) / kStep;
@@ -162,8 +169,9 @@ TEST(ExportC99, StepsGoWhereOurIntegrationGoes) {
   }
   EXPECT_GT(std::abs(y[0]), 1.0) << "it moves";
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(state[i + 1], y[i], 1e-9 * std::max(1.0, std::abs(y[i]))) << i;
+    EXPECT_NEAR(state[i + 1], y[i], kDifference * std::max(1.0, std::abs(y[i]))) << i;
   }
+  claims::expect("docs/export.md", "c-steps", {{"steps", kSteps}});
 }
 
 // A drive that follows a desired motion exactly needs exactly that torque: J1 N a + friction +

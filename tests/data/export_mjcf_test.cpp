@@ -1,6 +1,7 @@
 // The joint that is written, simulated by MuJoCo itself under node, against our own simulation.
 #include <nlohmann/json.hpp>
 
+#include "claims/claims.hpp"
 #include "export_fixture.hpp"
 #include "flexspline/core/simulate_rig.hpp"
 #include "mujoco_dir.hpp"
@@ -58,16 +59,18 @@ double distance(const std::vector<double>& ours, const std::vector<double>& thei
 class InMuJoCo : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(exists(engine() / "mujoco.js")) << "the build installs it"; }
-  // Runs both and compares the load's angle; the motor's with it where it turns on its own.
-  void expect_within(const RigModel& model, double amplitude, double share) {
+  // Runs both and compares the load's angle, where it is named as the page has it too; the motor's
+  // with it where it turns on its own.
+  void expect_within(const RigModel& model, double amplitude, double share,
+                     const std::string& claim = {}) {
     const Recording input = excitation(amplitude, 10.0);
     const auto ours = motions_under(model, input);
     ASSERT_TRUE(ours) << ours.error().message();
     const auto theirs = played(model, input);
     ASSERT_TRUE(theirs.is_object());
     const double load = distance(*ours->find(Quantity::load_angle), theirs.at("load"));
-    RecordProperty("load", std::to_string(load));
     EXPECT_LT(load, share);
+    if (!claim.empty()) claims::expect("docs/export.md", claim, {{"load", load}});
     if (model.rig != Rig::free) return;
     EXPECT_LT(distance(*ours->find(Quantity::motor_angle), theirs.at("motor")), share);
   }
@@ -80,12 +83,14 @@ RigModel baseline(Rig rig) {
   return model;
 }
 
-TEST_F(InMuJoCo, TheFreeRigMovesAsOurs) { expect_within(baseline(Rig::free), 1.5, 1e-3); }
+TEST_F(InMuJoCo, TheFreeRigMovesAsOurs) {
+  expect_within(baseline(Rig::free), 1.5, 1e-3, "mujoco-free");
+}
 
 TEST_F(InMuJoCo, TheServoMovesAsOurs) {
   RigModel model = baseline(Rig::servo);
   model.drive.load_inertia = 0.6;
-  expect_within(model, 0.8, 1e-3);
+  expect_within(model, 0.8, 1e-3, "mujoco-servo");
 }
 
 TEST_F(InMuJoCo, WeightOffsetAndGainOfTheMotorAreHeld) {
@@ -101,6 +106,7 @@ struct Friction {
   std::string name;
   Rig rig = Rig::free;
   EffectSpec effect;
+  std::string claim;
   double share = 1e-3;
 };
 
@@ -114,7 +120,8 @@ TEST_P(FrictionInMuJoCo, MovesAsOurs) {
   if (GetParam().effect.effect == "lugre_friction") model.drive.motor_coulomb = 0.0;
   model.drive.torsion.effects = {GetParam().effect};
   EXPECT_EQ(carried("mjcf", model).model.drive.torsion.effects.size(), 1u);
-  expect_within(model, GetParam().rig == Rig::servo ? 0.8 : 1.5, GetParam().share);
+  expect_within(model, GetParam().rig == Rig::servo ? 0.8 : 1.5, GetParam().share,
+                GetParam().claim);
 }
 
 const EffectSpec kLuGre = {"lugre_friction",
@@ -131,14 +138,15 @@ const EffectSpec kSlips = {
     "presliding_hysteresis",
     {{"stiffness", 4000.0}, {"yield", 2e-4}, {"stiffness", 3000.0}, {"yield", 6e-4}}};
 
-INSTANTIATE_TEST_SUITE_P(Effects, FrictionInMuJoCo,
-                         testing::Values(Friction{"lugre_free", Rig::free, kLuGre},
-                                         // A pendulum that lets go a step late swings on late.
-                                         Friction{"lugre_servo", Rig::servo, kLuGre, 1e-2},
-                                         Friction{"stribeck_free", Rig::free, kStribeck},
-                                         Friction{"dahl_free", Rig::free, kDahl},
-                                         Friction{"slips_free", Rig::free, kSlips}),
-                         [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Effects, FrictionInMuJoCo,
+    testing::Values(Friction{"lugre_free", Rig::free, kLuGre, "mujoco-lugre-free"},
+                    // A pendulum that lets go a step late swings on late.
+                    Friction{"lugre_servo", Rig::servo, kLuGre, "mujoco-lugre-servo", 1e-2},
+                    Friction{"stribeck_free", Rig::free, kStribeck, "mujoco-stribeck-free"},
+                    Friction{"dahl_free", Rig::free, kDahl, "mujoco-dahl-free"},
+                    Friction{"slips_free", Rig::free, kSlips, "mujoco-slips-free"}),
+    [](const auto& one) { return one.param.name; });
 
 TEST_F(InMuJoCo, AStribeckCurveOfAnotherExponentIsRefused) {
   RigModel model = baseline(Rig::free);
