@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "certified/nist_data.hpp"
+#include "claims/claims.hpp"
 #include "flexspline/estimators/certified.hpp"
 #include "solvers/least_squares.hpp"
 
@@ -58,7 +59,36 @@ TEST(Nist, ModelsHaveTheCertifiedSumOfSquares) {
     const double value = sum_of_squares(*problem, problem->parameters);
     EXPECT_NEAR(value / problem->sum_of_squares, 1.0, 1e-9) << problem->id;
   }
-  EXPECT_LT(sum_of_squares(problem_named("Lanczos1"), problem_named("Lanczos1").parameters), 1e-20);
+  const CertifiedProblem& lanczos = problem_named("Lanczos1");
+  const double sum = sum_of_squares(lanczos, lanczos.parameters);
+  EXPECT_LT(sum, 1e-20);
+  claims::expect("docs/certified.md", "lanczos1",
+                 {{"certified", certified::nist_data("Lanczos1").sum_of_squares},
+                  {"digits", kMostDigits},
+                  {"by the parameters", sum}});
+}
+
+TEST(CertifiedPage, CountsTheProblems) {
+  const auto mgh = collection("mgh");
+  const auto bounded = std::ranges::count_if(
+      mgh, [](const CertifiedProblem* problem) { return !problem->lower.empty(); });
+  const auto all = static_cast<std::ptrdiff_t>(mgh.size());
+  const auto count = [](const char* name, std::ptrdiff_t value) {
+    claims::expect("docs/certified.md", name, {{name, static_cast<double>(value)}});
+  };
+  count("nist-count", static_cast<std::ptrdiff_t>(collection("nist").size()));
+  count("mgh-count", all - bounded);
+  count("mgh-bounded-count", bounded);
+}
+
+TEST(CertifiedPage, HasThePublishedLocalMinima) {
+  const std::pair<const char*, const char*> minima[] = {{"freudenstein-roth", "Freudenstein-Roth"},
+                                                        {"bard", "Bard"},
+                                                        {"kowalik-osborne", "Kowalik-Osborne"},
+                                                        {"biggs-exp6", "Biggs EXP6"}};
+  for (const auto& [name, problem] : minima) {
+    claims::expect("docs/certified.md", name, {{problem, problem_named(problem).other_minima[0]}});
+  }
 }
 
 // Derivatives against central differences, away from the solutions.
@@ -153,6 +183,22 @@ class Logarithm final : public LeastSquaresProblem {
 
 constexpr SolverSettings kPatient{
     .max_iterations = 200, .function_tolerance = 1e-14, .parameter_tolerance = 1e-14};
+
+// The bounds of Gay (1984).
+TEST(Certified, GulfHasNoPerfectFitWithinItsPublishedBounds) {
+  const CertifiedProblem& gulf = problem_named("Gulf research");
+  std::vector<BoundedParameter> parameters;
+  for (const double start : gulf.starts[0]) {
+    parameters.push_back({.start = start, .lower = 0.0, .upper = 10.0});
+  }
+  const auto solution = minimise(*gulf.residuals, parameters, kPatient);
+  ASSERT_TRUE(solution) << solution.error().message();
+  claims::expect("docs/certified.md", "gulf",
+                 {{"sum of squares", 2.0 * solution->cost},
+                  {"x1", solution->p[0]},
+                  {"x2", solution->p[1]},
+                  {"x3", solution->p[2]}});
+}
 
 // The full step from 10 goes to 10 - 10 ln 10 < 0.
 TEST(MinimiseIpopt, TurnsBackWhereNothingCanBeEvaluated) {
