@@ -25,6 +25,11 @@ std::string SanityFinding::message() const {
   return fmt::format("{}: {}{}; {}", code, where, what, remedy);
 }
 
+SanityFinding SanityVerdict::on(std::string recording, std::string what) const {
+  return {std::string(code),  "", severity, std::move(recording), std::move(what),
+          std::string(remedy)};
+}
+
 std::vector<SanityFinding> sanity_of(const RecordingSet& set) {
   const ObservedSet observed = observe(set);
   const auto accepted = accepted_findings(set);

@@ -58,6 +58,17 @@ std::string rig_words(const ordered_json& row) {
   return text;
 }
 
+/// What a check may answer: code, severity and remedy.
+std::string verdict_words(const ordered_json& row) {
+  std::string text;
+  if (!row.contains("verdicts")) return text;
+  for (const ordered_json& one : row.at("verdicts")) {
+    text += fmt::format("\n    {:<14} {:<8} {}", words(one.at("code")), words(one.at("severity")),
+                        words(one.at("remedy")));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string words(const ordered_json& value) {
@@ -74,7 +85,7 @@ std::string catalogue_text(const ordered_json& rows) {
   for (const ordered_json& row : rows) {
     text += fmt::format("{}{:<26} {}", text.empty() ? "" : "\n", row.at("id").get<std::string>(),
                         row.at("says").get<std::string>());
-    text += further_words(row) + rig_words(row);
+    text += further_words(row) + rig_words(row) + verdict_words(row);
     for (const char* list : {"options", "parameters", "arguments"}) {
       if (!row.contains(list)) continue;
       for (const ordered_json& one : row.at(list)) {

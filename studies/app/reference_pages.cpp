@@ -49,6 +49,11 @@ std::string constant_row(const ordered_json& one) {
                      words(one.at("unit")));
 }
 
+std::string verdict_row(const ordered_json& one) {
+  return fmt::format("| {} | {} | {} |\n", code(words(one.at("code"))), words(one.at("severity")),
+                     cell(words(one.at("remedy"))));
+}
+
 struct List {
   const char* key;
   const char* head;
@@ -57,7 +62,8 @@ struct List {
 
 constexpr List kLists[] = {{"options", "| option | meaning | range; default |", option_row},
                            {"arguments", "| argument | meaning | takes |", argument_row},
-                           {"constants", "| constant | meaning | unit |", constant_row}};
+                           {"constants", "| constant | meaning | unit |", constant_row},
+                           {"verdicts", "| code | severity | remedy |", verdict_row}};
 
 std::string lists_of(const ordered_json& row) {
   std::string text;
@@ -88,7 +94,9 @@ std::string facts_of(const ordered_json& row) {
 
 bool is_table(const ordered_json& rows) {
   for (const ordered_json& row : rows) {
-    if (row.contains("arguments") || row.contains("options") || row.contains("forms")) return false;
+    for (const char* key : {"arguments", "options", "forms", "verdicts"}) {
+      if (row.contains(key)) return false;
+    }
   }
   return true;
 }

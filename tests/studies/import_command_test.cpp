@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 
@@ -5,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.hpp"
+#include "flexspline/data/sanity_check.hpp"
 #include "source_dir.hpp"
 
 namespace flexspline::studies {
@@ -116,6 +118,19 @@ TEST_F(ImportCommand, ListsItsReaders) {
   for (const json& row : json::parse(done.result)) ids.push_back(row.at("id"));
   EXPECT_THAT(ids,
               testing::ElementsAre("csv", "hdf5", "matlab", "mcap", "mdf4", "netcdf", "rosbag2"));
+}
+
+TEST_F(ImportCommand, ListsWhatItsChecksMayAnswer) {
+  const Finished done = call("list checks --json");
+  ASSERT_EQ(done.code, 0);
+  const json rows = json::parse(done.result);
+  EXPECT_EQ(rows.size(), data::sanity_checks().size());
+  const auto clipped = std::ranges::find(
+      rows, "clipped", [](const json& row) { return row.at("id").get<std::string>(); });
+  ASSERT_NE(clipped, rows.end());
+  EXPECT_EQ(clipped->at("verdicts"), json::parse(R"([{"code": "check_channel", "severity": "error",
+    "remedy": "widen the sensor's range, or mark these samples with valid = 0"}])"));
+  EXPECT_THAT(call("list checks").result, HasSubstr("check_channel  error    widen the sensor's"));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "damaged_set.hpp"
 #include "drive_frame.hpp"
 #include "flexspline/data/dataset.hpp"
+#include "flexspline/data/sanity_check.hpp"
+#include "flexspline/data/sanity_codes.hpp"
 #include "flexspline/studies/plan.hpp"
 #include "study_file.hpp"
 
@@ -40,6 +42,27 @@ TEST(Sanity, SoundBenchesRaiseNoAlarm) {
   }
 }
 
+/// Whether the catalogue has it, as `list checks` prints it.
+bool is_listed(const SanityFinding& one) {
+  const auto rows = data::sanity_checks();
+  const auto row = std::ranges::find(rows, one.check, &data::SanityRow::id);
+  return row != rows.end() && std::ranges::any_of(row->verdicts, [&](const auto& verdict) {
+           return verdict.code == one.code && verdict.severity == one.severity &&
+                  verdict.remedy == one.remedy;
+         });
+}
+
+TEST(Sanity, EveryCheckSaysWhatItMayAnswer) {
+  for (const data::SanityRow& row : data::sanity_checks()) {
+    EXPECT_TRUE(data::is_sanity_code(row.id)) << row.id;
+    EXPECT_FALSE(row.verdicts.empty()) << row.id;
+    for (const data::SanityVerdict& one : row.verdicts) {
+      EXPECT_TRUE(data::is_sanity_code(one.code)) << row.id << ": " << one.code;
+      EXPECT_FALSE(one.remedy.empty()) << row.id;
+    }
+  }
+}
+
 class SanityOfDamage : public testing::TestWithParam<Damage> {};
 
 TEST_P(SanityOfDamage, IsFoundOnEveryRigThatCanTell) {
@@ -47,7 +70,11 @@ TEST_P(SanityOfDamage, IsFoundOnEveryRigThatCanTell) {
     RecordingSet set = sound(rig);
     Draw draw(5);
     GetParam().apply(set, draw);
-    EXPECT_FALSE(sanity_of(set).empty()) << name_of(rig);
+    const auto findings = sanity_of(set);
+    EXPECT_FALSE(findings.empty()) << name_of(rig);
+    for (const SanityFinding& one : findings) {
+      EXPECT_TRUE(is_listed(one)) << name_of(rig) << ": " << one.check << " " << one.message();
+    }
   }
 }
 

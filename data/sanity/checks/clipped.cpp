@@ -11,6 +11,9 @@ namespace {
 
 using Series = std::vector<double>;
 
+constexpr SanityVerdict kCutOff{"check_channel", Severity::error,
+                                "widen the sensor's range, or mark these samples with valid = 0"};
+
 constexpr std::size_t kLeastSamples = 8;   // exactly at an extreme, some of them in a row
 constexpr std::size_t kLeastTurning = 24;  // of what moves: it dwells at an extreme as it turns
 constexpr std::size_t kLeastRow = 4;
@@ -87,11 +90,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
             top ? *std::ranges::max_element(*values) : *std::ranges::min_element(*values);
         const AtExtreme extreme = at(*values, value);
         if (!is_clipped(all, recording, quantity, *values, extreme, top)) continue;
-        list.push_back({"check_channel", "", Severity::error, recording.id,
-                        fmt::format("{} is cut off: {} of {} samples are exactly {:.6g}, its {}",
-                                    name_of(quantity), extreme.count, values->size(), value,
-                                    top ? "largest" : "smallest"),
-                        "widen the sensor's range, or mark these samples with valid = 0"});
+        list.push_back(kCutOff.on(
+            recording.id, fmt::format("{} is cut off: {} of {} samples are exactly {:.6g}, its {}",
+                                      name_of(quantity), extreme.count, values->size(), value,
+                                      top ? "largest" : "smallest")));
         break;
       }
     }
@@ -102,7 +104,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_clipped() {
-  return {"clipped", "many samples exactly at an extreme, as a saturated sensor has", find};
+  return {
+      "clipped", "many samples exactly at an extreme, as a saturated sensor has", {kCutOff}, find};
 }
 
 }  // namespace flexspline::data

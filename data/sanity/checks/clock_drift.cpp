@@ -9,6 +9,11 @@
 namespace flexspline::data {
 namespace {
 
+constexpr SanityVerdict kDrift{"check_channel", Severity::error,
+                               "record all channels by one clock, or bring them to one before"};
+constexpr SanityVerdict kOverlaps{"check_channel", Severity::warning,
+                                  "check start_s of both: what drifts is told by it"};
+
 constexpr double kLeastPhase = 0.2;  // rad at the end of the recording that shows most of it
 constexpr double kLeft = 0.4;        // of what is unexplained without a drift
 constexpr double kOverlap = 0.02;    // of the shorter recording
@@ -17,13 +22,11 @@ void between_channels(const ObservedSet& all, std::vector<SanityFinding>& list) 
   for (const Relation& relation : relations_of(all)) {
     const auto drift = best_lag(relation, LagKind::drift);
     if (!drift || drift->phase < kLeastPhase || drift->left > kLeft) continue;
-    list.push_back(
-        {"check_channel", "", Severity::error, "",
-         fmt::format("{} drifts against {}: its clock differs by {:.2g} %, {:.2g} rad at "
-                     "the end, which leaves {:.0f} % of what is unexplained without",
-                     relation.late, relation.than, 100.0 * std::abs(drift->amount), drift->phase,
-                     100.0 * drift->left),
-         "record all channels by one clock, or bring them to one before"});
+    list.push_back(kDrift.on(
+        "", fmt::format("{} drifts against {}: its clock differs by {:.2g} %, {:.2g} rad at "
+                        "the end, which leaves {:.0f} % of what is unexplained without",
+                        relation.late, relation.than, 100.0 * std::abs(drift->amount), drift->phase,
+                        100.0 * drift->left)));
     return;
   }
 }
@@ -49,11 +52,10 @@ void between_recordings(const ObservedSet& all, std::vector<SanityFinding>& list
     const double shared = before.start_s + lasts - after.start_s;
     const double shorter = std::min(lasts, after.time.back() - after.time.front());
     if (shared <= kOverlap * shorter) continue;
-    list.push_back({"check_channel", "", Severity::warning, after.id,
-                    fmt::format("it starts at {:.6g} s, {:.3g} s before recording '{}' ends on the "
-                                "same clock",
-                                after.start_s, shared, before.id),
-                    "check start_s of both: what drifts is told by it"});
+    list.push_back(kOverlaps.on(
+        after.id, fmt::format("it starts at {:.6g} s, {:.3g} s before recording '{}' ends on the "
+                              "same clock",
+                              after.start_s, shared, before.id)));
   }
 }
 
@@ -67,7 +69,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_clock_drift() {
-  return {"clock_drift", "channels, or recordings, by clocks that differ", find};
+  return {
+      "clock_drift", "channels, or recordings, by clocks that differ", {kDrift, kOverlaps}, find};
 }
 
 }  // namespace flexspline::data

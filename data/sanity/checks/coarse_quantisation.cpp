@@ -8,6 +8,10 @@
 namespace flexspline::data {
 namespace {
 
+constexpr SanityVerdict kCoarse{
+    "check_channel", Severity::warning,
+    "record it with a finer resolution; what is finer than a step is not seen"};
+
 constexpr double kFewest = 24.0;            // steps over the range
 constexpr std::size_t kLeastSamples = 200;  // fewer may take few values by chance
 constexpr double kRepeated = 4.0;           // samples a value
@@ -29,11 +33,11 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
       }
       const auto taken = static_cast<double>(values_taken(*values));
       if (taken > kFewest || taken * kRepeated > static_cast<double>(values->size())) continue;
-      list.push_back({"check_channel", "", Severity::warning, recording.id,
-                      fmt::format("{} takes {:.0f} values in {} samples: a step is {:.2g} % of its "
-                                  "range",
-                                  name_of(quantity), taken, values->size(), 100.0 / (taken - 1.0)),
-                      "record it with a finer resolution; what is finer than a step is not seen"});
+      list.push_back(
+          kCoarse.on(recording.id,
+                     fmt::format("{} takes {:.0f} values in {} samples: a step is {:.2g} % of its "
+                                 "range",
+                                 name_of(quantity), taken, values->size(), 100.0 / (taken - 1.0))));
     }
   }
   return list;
@@ -42,7 +46,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_coarse_quantisation() {
-  return {"coarse_quantisation", "a channel of few values", find};
+  return {"coarse_quantisation", "a channel of few values", {kCoarse}, find};
 }
 
 }  // namespace flexspline::data

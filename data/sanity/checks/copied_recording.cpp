@@ -11,6 +11,10 @@ namespace {
 
 using Series = std::vector<double>;
 
+constexpr SanityVerdict kCopied{
+    "check_channel", Severity::error,
+    "give each recording its own file: what is fitted must not be held out"};
+
 constexpr std::size_t kLeast = 32;      // samples in a row that no two measurements share
 constexpr std::size_t kMost = 50000;    // samples compared of each
 constexpr std::size_t kDifferent = 12;  // values among them
@@ -72,10 +76,9 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
       if (a == nullptr || b == nullptr) continue;
       const std::size_t same = shared(compared(*a), compared(*b));
       if (same < kLeast) continue;
-      list.push_back(
-          {"check_channel", "", Severity::error, recordings[i].id,
-           fmt::format("{} samples in a row are those of recording '{}'", same, recordings[k].id),
-           "give each recording its own file: what is fitted must not be held out"});
+      list.push_back(kCopied.on(
+          recordings[i].id,
+          fmt::format("{} samples in a row are those of recording '{}'", same, recordings[k].id)));
     }
   }
   return list;
@@ -84,7 +87,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_copied_recording() {
-  return {"copied_recording", "a recording that is a copy of another", find};
+  return {"copied_recording", "a recording that is a copy of another", {kCopied}, find};
 }
 
 }  // namespace flexspline::data

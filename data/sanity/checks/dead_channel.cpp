@@ -7,6 +7,10 @@
 namespace flexspline::data {
 namespace {
 
+constexpr SanityVerdict kDead{
+    "check_channel", Severity::error,
+    "see whether the sensor was connected and the right column is named; leave the recording out"};
+
 /// The value of a channel that is the same wherever the bench did not mark a sample as spoiled.
 bool is_dead(const Recording& recording, const std::vector<double>& values) {
   const auto valid = valid_samples(recording);
@@ -19,11 +23,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
     for (const Quantity quantity : telling_channels(all.set)) {
       const auto* values = recording.find(quantity);
       if (values == nullptr || values->empty() || !is_dead(recording, *values)) continue;
-      list.push_back(
-          {"check_channel", "", Severity::error, recording.id,
-           fmt::format("{} is {:.6g} in every sample", name_of(quantity), values->front()),
-           "see whether the sensor was connected and the right column is named; leave "
-           "the recording out"});
+      list.push_back(kDead.on(recording.id, fmt::format("{} is {:.6g} in every sample",
+                                                        name_of(quantity), values->front())));
     }
   }
   return list;
@@ -32,7 +33,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_dead_channel() {
-  return {"dead_channel", "a channel that is the same number throughout a recording", find};
+  return {
+      "dead_channel", "a channel that is the same number throughout a recording", {kDead}, find};
 }
 
 }  // namespace flexspline::data

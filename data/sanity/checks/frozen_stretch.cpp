@@ -10,6 +10,9 @@ namespace {
 
 using Series = std::vector<double>;
 
+constexpr SanityVerdict kFrozen{"check_channel", Severity::error,
+                                "mark these samples with valid = 0, or leave the recording out"};
+
 constexpr std::size_t kLeastRun = 12;   // samples
 constexpr double kLongerThan = 6.0;     // times the longest but few runs of the channel elsewhere
 constexpr double kJump = 6.0;           // times the usual step of the channel
@@ -112,12 +115,12 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
       if (!never_stands && (moved < kPartnerMoves || !jumps_after(*values, run))) continue;
       const double from = recording.time[run.first];
       const double to = recording.time[run.first + run.count - 1];
-      list.push_back(
-          {"check_channel", "", Severity::error, recording.id,
-           fmt::format("{} stands at {:.6g} for {} samples ({:.4g} to {:.4g} s) while another "
-                       "channel goes through {:.0f} % of its range",
-                       name_of(quantity), (*values)[run.first], run.count, from, to, 100.0 * moved),
-           "mark these samples with valid = 0, or leave the recording out"});
+      list.push_back(kFrozen.on(
+          recording.id,
+          fmt::format("{} stands at {:.6g} for {} samples ({:.4g} to {:.4g} s) while another "
+                      "channel goes through {:.0f} % of its range",
+                      name_of(quantity), (*values)[run.first], run.count, from, to,
+                      100.0 * moved)));
     }
   }
   return list;
@@ -126,7 +129,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_frozen_stretch() {
-  return {"frozen_stretch", "a channel that stands still while the others move", find};
+  return {"frozen_stretch", "a channel that stands still while the others move", {kFrozen}, find};
 }
 
 }  // namespace flexspline::data

@@ -8,12 +8,17 @@
 namespace flexspline::data {
 namespace {
 
+constexpr std::string_view kState = "state turns of the motor for one of the output";
+constexpr SanityVerdict kNegative{"check_sign", Severity::error, kState};
+constexpr SanityVerdict kNoReduction{"check_ratio", Severity::error, kState};
+constexpr SanityVerdict kBackwards{"check_sign", Severity::error,
+                                   "check the sign of motor_angle against load_angle"};
+constexpr SanityVerdict kOtherRatio{
+    "check_ratio", Severity::error,
+    "check gear_ratio, the units of both angles, and which column is which"};
+
 constexpr double kMostOff = 1.15;  // of the ratio: windup and kinematic error are less
 constexpr double kFollows = 0.9;   // of the motor's variance: less, and the load did not follow
-
-SanityFinding finding(std::string code, std::string what, std::string remedy) {
-  return {std::move(code), "", Severity::error, "", std::move(what), std::move(remedy)};
-}
 
 /// Slope of the motor's angle over the load's, over the ratio that the set states.
 std::vector<Factor> slopes(const ObservedSet& all) {
@@ -28,38 +33,33 @@ std::vector<Factor> slopes(const ObservedSet& all) {
   return list;
 }
 
-SanityFinding of_slope(const ObservedSet& all, double factor) {
+SanityFinding of_slope(const ObservedSet& all, const std::string& recording, double factor) {
   const double ratio = all.constant("gear_ratio");
   const std::string seen =
       fmt::format("the motor's angle is {:.4g} times the load's, and gear_ratio is {:.4g}",
                   factor * ratio, ratio);
-  if (factor < 0.0) {
-    return finding("check_sign", seen, "check the sign of motor_angle against load_angle");
-  }
+  if (factor < 0.0) return kBackwards.on(recording, seen);
   const std::string mistake = mistake_of(factor, ratio);
-  return finding(
-      "check_ratio",
-      mistake.empty() ? seen : fmt::format("{} ({:.3g} times it: {})", seen, factor, mistake),
-      "check gear_ratio, the units of both angles, and which column is which");
+  return kOtherRatio.on(
+      recording,
+      mistake.empty() ? seen : fmt::format("{} ({:.3g} times it: {})", seen, factor, mistake));
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
   std::vector<SanityFinding> list;
   const double ratio = all.constant("gear_ratio");
   if (std::abs(ratio) < 1.0 || ratio < 0.0) {
-    list.push_back(finding(ratio < 0.0 ? "check_sign" : "check_ratio",
-                           fmt::format("gear_ratio is {:.4g}: a reduction is at least 1", ratio),
-                           "state turns of the motor for one of the output"));
+    list.push_back(
+        (ratio < 0.0 ? kNegative : kNoReduction)
+            .on("", fmt::format("gear_ratio is {:.4g}: a reduction is at least 1", ratio)));
   }
   if (all.set.rig != Rig::free || !std::isfinite(ratio)) return list;
   const auto factors = slopes(all);
   if (factors.empty()) return list;
   const Agreement agreement = agreement_of(factors, kMostOff);
-  if (is_off(agreement.common, kMostOff)) list.push_back(of_slope(all, agreement.common));
+  if (is_off(agreement.common, kMostOff)) list.push_back(of_slope(all, "", agreement.common));
   for (const Factor& other : agreement.others) {
-    if (!is_off(other.value, kMostOff)) continue;
-    list.push_back(of_slope(all, other.value));
-    list.back().recording = other.recording;
+    if (is_off(other.value, kMostOff)) list.push_back(of_slope(all, other.recording, other.value));
   }
   return list;
 }
@@ -67,7 +67,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_gear_ratio() {
-  return {"gear_ratio", "the gear ratio against what the two angles say", find};
+  return {"gear_ratio",
+          "the gear ratio against what the two angles say",
+          {kNegative, kNoReduction, kBackwards, kOtherRatio},
+          find};
 }
 
 }  // namespace flexspline::data

@@ -8,6 +8,12 @@
 namespace flexspline::data {
 namespace {
 
+constexpr SanityVerdict kDelayed{"check_channel", Severity::warning,
+                                 "sample both channels at one instant, or shift one of them by it"};
+constexpr SanityVerdict kFiltered{
+    "check_channel", Severity::warning,
+    "record every channel behind the same filter, or with a higher cut-off"};
+
 constexpr double kLeastPhase = 0.15;  // rad of the fastest motion: less is a cause to diagnose
 constexpr double kLeft = 0.4;         // of what is unexplained without a lag
 
@@ -21,13 +27,7 @@ SanityFinding finding(const Relation& relation, const Lag& lag) {
       : lag.amount > 0.0 ? "comes later than"
                          : "comes earlier than",
       relation.than, std::abs(lag.amount), lag.phase, 100.0 * lag.left);
-  return {"check_channel",
-          "",
-          Severity::warning,
-          "",
-          seen,
-          filtered ? "record every channel behind the same filter, or with a higher cut-off"
-                   : "sample both channels at one instant, or shift one of them by it"};
+  return (filtered ? kFiltered : kDelayed).on("", seen);
 }
 
 // A delay and a low pass look alike where the motion is slow against them: what explains more is
@@ -47,7 +47,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_late_channel() {
-  return {"late_channel", "a channel that is delayed, or filtered, against the others", find};
+  return {"late_channel",
+          "a channel that is delayed, or filtered, against the others",
+          {kDelayed, kFiltered},
+          find};
 }
 
 }  // namespace flexspline::data

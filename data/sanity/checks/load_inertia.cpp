@@ -10,6 +10,12 @@ namespace {
 
 using Eigen::ArrayXd;
 
+constexpr SanityVerdict kBackwards{"check_sign", Severity::error,
+                                   "check the sign of transmitted_torque against load_angle"};
+constexpr SanityVerdict kOtherInertia{
+    "check_units", Severity::error,
+    "check the units of time, load_angle and transmitted_torque, and the inertia"};
+
 constexpr double kMostOff = 2.0;
 constexpr double kClear = 20.0;  // standard errors, of white noise
 
@@ -31,17 +37,10 @@ std::vector<Factor> inertias(const ObservedSet& all) {
 SanityFinding finding(const std::string& recording, double factor, double ratio) {
   const std::string seen =
       fmt::format("torque over acceleration of the load is {:.3g} times load_inertia_kgm2", factor);
-  if (factor < 0.0) {
-    return {"check_sign", "",   Severity::error,
-            recording,    seen, "check the sign of transmitted_torque against load_angle"};
-  }
+  if (factor < 0.0) return kBackwards.on(recording, seen);
   const std::string mistake = mistake_of(factor, ratio);
-  return {"check_units",
-          "",
-          Severity::error,
-          recording,
-          mistake.empty() ? seen : fmt::format("{} ({})", seen, mistake),
-          "check the units of time, load_angle and transmitted_torque, and the inertia"};
+  return kOtherInertia.on(recording,
+                          mistake.empty() ? seen : fmt::format("{} ({})", seen, mistake));
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
@@ -63,7 +62,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_load_inertia() {
-  return {"load_inertia", "the load's inertia against torque over acceleration", find};
+  return {"load_inertia",
+          "the load's inertia against torque over acceleration",
+          {kBackwards, kOtherInertia},
+          find};
 }
 
 }  // namespace flexspline::data

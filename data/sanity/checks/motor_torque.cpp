@@ -11,6 +11,13 @@ namespace {
 
 using Eigen::ArrayXd;
 
+constexpr SanityVerdict kBackwards{"check_sign", Severity::error,
+                                   "check the sign of motor_torque against transmitted_torque"};
+constexpr std::string_view kScale =
+    "check the units of both torques, gear_ratio, and which column is which";
+constexpr SanityVerdict kOtherRatio{"check_ratio", Severity::error, kScale};
+constexpr SanityVerdict kOtherUnits{"check_units", Severity::error, kScale};
+
 constexpr double kMostOff = 1.8;
 constexpr double kLoaded =
     0.3;  // of the largest range of torque: below it noise flattens the slope
@@ -46,18 +53,11 @@ std::vector<Factor> slopes(const ObservedSet& all) {
 SanityFinding finding(const std::string& recording, double factor, double ratio) {
   const std::string seen =
       fmt::format("motor_torque changes by {:.3g} of transmitted_torque/gear_ratio", factor);
-  if (factor < 0.0) {
-    return {"check_sign", "",   Severity::error,
-            recording,    seen, "check the sign of motor_torque against transmitted_torque"};
-  }
+  if (factor < 0.0) return kBackwards.on(recording, seen);
   const std::string mistake = mistake_of(factor, ratio);
   const bool of_ratio = !is_off(factor, 4.0);
-  return {of_ratio ? "check_ratio" : "check_units",
-          "",
-          Severity::error,
-          recording,
-          mistake.empty() ? seen : fmt::format("{} ({})", seen, mistake),
-          "check the units of both torques, gear_ratio, and which column is which"};
+  return (of_ratio ? kOtherRatio : kOtherUnits)
+      .on(recording, mistake.empty() ? seen : fmt::format("{} ({})", seen, mistake));
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
@@ -79,7 +79,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_motor_torque() {
-  return {"motor_torque", "the motor's torque against the transmitted torque over the ratio", find};
+  return {"motor_torque",
+          "the motor's torque against the transmitted torque over the ratio",
+          {kBackwards, kOtherRatio, kOtherUnits},
+          find};
 }
 
 }  // namespace flexspline::data

@@ -9,6 +9,15 @@
 namespace flexspline::data {
 namespace {
 
+constexpr std::string_view kRatio =
+    "check gear_ratio, the unit of the angle and amplitude_deg (at the output)";
+constexpr std::string_view kUnit =
+    "check the unit of the angle's channel, and amplitude_deg (at the output)";
+constexpr SanityVerdict kOtherRatio{"check_ratio", Severity::error, kRatio};
+constexpr SanityVerdict kNearlyRatio{"check_ratio", Severity::warning, kRatio};
+constexpr SanityVerdict kOtherUnits{"check_units", Severity::error, kUnit};
+constexpr SanityVerdict kNearly{"check_units", Severity::warning, kUnit};
+
 constexpr double kAlike = 1.3;
 constexpr double kMistaken = 1.6;
 
@@ -37,13 +46,9 @@ SanityFinding finding(const ObservedSet& all, const std::string& recording, doub
   std::string what =
       fmt::format("the motion is {:.3g} times the amplitude that dataset.toml states{}", factor,
                   mistake.empty() ? "" : fmt::format(" ({})", mistake));
-  return {of_ratio ? "check_ratio" : "check_units",
-          "",
-          is_off(factor, kMistaken) ? Severity::error : Severity::warning,
-          recording,
-          std::move(what),
-          of_ratio ? "check gear_ratio, the unit of the angle and amplitude_deg (at the output)"
-                   : "check the unit of the angle's channel, and amplitude_deg (at the output)"};
+  const bool mistaken = is_off(factor, kMistaken);
+  if (of_ratio) return (mistaken ? kOtherRatio : kNearlyRatio).on(recording, std::move(what));
+  return (mistaken ? kOtherUnits : kNearly).on(recording, std::move(what));
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
@@ -61,7 +66,9 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_nominal_amplitude() {
-  return {"nominal_amplitude", "the recorded motion against the amplitude that the set states",
+  return {"nominal_amplitude",
+          "the recorded motion against the amplitude that the set states",
+          {kOtherRatio, kNearlyRatio, kOtherUnits, kNearly},
           find};
 }
 

@@ -9,6 +9,10 @@
 namespace flexspline::data {
 namespace {
 
+constexpr std::string_view kUnit = "check the unit of the time channel and frequency_hz";
+constexpr SanityVerdict kOtherUnits{"check_units", Severity::error, kUnit};
+constexpr SanityVerdict kNearly{"check_units", Severity::warning, kUnit};
+
 constexpr double kAlike = 1.08;
 constexpr double kMistaken = 1.3;
 constexpr double kLeastCycles = 0.05;   // of an excitation that is worth its frequency
@@ -37,13 +41,10 @@ SanityFinding finding(const std::string& recording, double factor) {
   const std::string mistake = !is_off(factor / 1000.0, 1.12)   ? " (1000 is s taken for ms)"
                               : !is_off(factor * 1000.0, 1.12) ? " (1/1000 is ms taken for s)"
                                                                : "";
-  return {"check_units",
-          "",
-          is_off(factor, kMistaken) ? Severity::error : Severity::warning,
-          recording,
+  return (is_off(factor, kMistaken) ? kOtherUnits : kNearly)
+      .on(recording,
           fmt::format("the motion's frequency is {:.3g} times the one that dataset.toml states{}",
-                      factor, mistake),
-          "check the unit of the time channel and frequency_hz"};
+                      factor, mistake));
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
@@ -64,7 +65,9 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_nominal_frequency() {
-  return {"nominal_frequency", "the recorded motion against the frequency that the set states",
+  return {"nominal_frequency",
+          "the recorded motion against the frequency that the set states",
+          {kOtherUnits, kNearly},
           find};
 }
 

@@ -8,6 +8,9 @@
 namespace flexspline::data {
 namespace {
 
+constexpr SanityVerdict kNoSine{"check_channel", Severity::warning,
+                                "check which file this is, and state what was done"};
+
 constexpr double kSine = 0.75;       // of the variance: a sine that swells and fades has as much
 constexpr double kHarmonics = 0.09;  // of its amplitude: those of a triangle are 0.12
 constexpr int kHighest = 7;
@@ -33,17 +36,17 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
     if (o.recording->excitation != "sine" || !o.sine) continue;
     const double harmonics = distortion(all, o);
     if (o.sine->explained > kSine && harmonics < kHarmonics) continue;
-    list.push_back({"check_channel", "", Severity::warning, o.recording->id,
-                    fmt::format("its excitation is said to be a sine, but a sine explains {:.0f} % "
-                                "of the motion's variance, and harmonics are {:.0f} % of it",
-                                100.0 * o.sine->explained, 100.0 * harmonics),
-                    "check which file this is, and state what was done"});
+    list.push_back(
+        kNoSine.on(o.recording->id,
+                   fmt::format("its excitation is said to be a sine, but a sine explains {:.0f} % "
+                               "of the motion's variance, and harmonics are {:.0f} % of it",
+                               100.0 * o.sine->explained, 100.0 * harmonics)));
   }
   return list;
 }
 
 }  // namespace
 
-SanityRow describe_not_a_sine() { return {"not_a_sine", "a sine that is none", find}; }
+SanityRow describe_not_a_sine() { return {"not_a_sine", "a sine that is none", {kNoSine}, find}; }
 
 }  // namespace flexspline::data

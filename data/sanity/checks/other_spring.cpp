@@ -10,6 +10,12 @@ namespace {
 
 using Eigen::ArrayXd;
 
+constexpr std::string_view kGear =
+    "see whether it is of another gear, or of another gain of a sensor";
+constexpr SanityVerdict kBackwards{"check_sign", Severity::error, kGear};
+constexpr SanityVerdict kOtherGear{"check_channel", Severity::error, kGear};
+constexpr SanityVerdict kOtherSlope{"check_channel", Severity::warning, kGear};
+
 constexpr double kAsWide = 1.5;    // motions whose widths differ by less are compared
 constexpr double kMistaken = 2.5;  // of the slope
 constexpr double kOff = 1.6;
@@ -51,13 +57,14 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
   for (const Spring& spring : springs) {
     const double factor = against_others(spring, springs);
     if (!is_off(factor, kOff)) continue;
-    list.push_back({factor < 0.0 ? "check_sign" : "check_channel", "",
-                    is_off(factor, kMistaken) ? Severity::error : Severity::warning,
-                    spring.recording,
-                    fmt::format("torque over torsion is {:.3g} times that of the recordings of "
-                                "like width",
-                                factor),
-                    "see whether it is of another gear, or of another gain of a sensor"});
+    const SanityVerdict& verdict = factor < 0.0                ? kBackwards
+                                   : is_off(factor, kMistaken) ? kOtherGear
+                                                               : kOtherSlope;
+    list.push_back(
+        verdict.on(spring.recording,
+                   fmt::format("torque over torsion is {:.3g} times that of the recordings of "
+                               "like width",
+                               factor)));
   }
   return list;
 }
@@ -65,7 +72,10 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_other_spring() {
-  return {"other_spring", "a recording whose spring differs from the others'", find};
+  return {"other_spring",
+          "a recording whose spring differs from the others'",
+          {kBackwards, kOtherGear, kOtherSlope},
+          find};
 }
 
 }  // namespace flexspline::data

@@ -10,8 +10,13 @@ namespace {
 
 using Eigen::ArrayXd;
 
+constexpr SanityVerdict kTurns{
+    "check_units", Severity::error,
+    "check the unit of load_angle: degrees may have been taken for radians"};
+constexpr SanityVerdict kDrives{"check_sign", Severity::error,
+                                "check the sign of the drive's channel against load_angle"};
+
 constexpr double kClear = 10.0;  // standard errors, of white noise
-constexpr double kGravity = 9.80665;
 constexpr double kMostTurns = 6.0;  // of a pendulum
 
 /// What a servo's drive does along the motion, by u = a sin(theta) + b theta'' + c |theta'| + d.
@@ -37,16 +42,13 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
   std::vector<SanityFinding> list;
   const double turns = widest / 6.283185307179586;
   if (turns > kMostTurns) {
-    list.push_back({"check_units", "", Severity::error, "",
-                    fmt::format("the pendulum turns {:.3g} times", turns),
-                    "check the unit of load_angle: degrees may have been taken for radians"});
+    list.push_back(kTurns.on("", fmt::format("the pendulum turns {:.3g} times", turns)));
   }
   if (median_of(friction) < -kClear && median_of(gravity) < kClear) {
-    list.push_back({"check_sign", "", Severity::error, "",
-                    fmt::format("the drive acts along with the friction: {:.3g} standard errors in "
-                                "the direction of motion, {:.3g} along gravity",
-                                median_of(friction), median_of(gravity)),
-                    "check the sign of the drive's channel against load_angle"});
+    list.push_back(kDrives.on(
+        "", fmt::format("the drive acts along with the friction: {:.3g} standard errors in "
+                        "the direction of motion, {:.3g} along gravity",
+                        median_of(friction), median_of(gravity))));
   }
   return list;
 }
@@ -54,7 +56,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_pendulum() {
-  return {"pendulum", "sign and scale of a servo's angle and drive", find};
+  return {"pendulum", "sign and scale of a servo's angle and drive", {kTurns, kDrives}, find};
 }
 
 }  // namespace flexspline::data

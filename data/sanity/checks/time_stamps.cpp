@@ -10,6 +10,13 @@ namespace {
 
 using Series = std::vector<double>;
 
+constexpr SanityVerdict kGaps{"check_channel", Severity::warning,
+                              "cut it into recordings there: the motion in between is unknown"};
+constexpr SanityVerdict kTwice{"check_channel", Severity::warning, "keep one row a stamp"};
+constexpr SanityVerdict kRepeated{
+    "check_channel", Severity::warning,
+    "keep the rows that were measured: the log is faster than the sensors"};
+
 constexpr double kGap = 20.0;        // times the usual interval
 constexpr double kDuplicate = 0.02;  // of it
 constexpr double kRepeats = 0.2;     // of the rows that are the row before again
@@ -21,30 +28,24 @@ Series intervals_of(const Series& time) {
   return steps;
 }
 
-SanityFinding warning(const Recording& recording, std::string what, std::string remedy) {
-  return {"check_channel", "", Severity::warning, recording.id, std::move(what), std::move(remedy)};
-}
-
 void look_for_gaps(const Recording& recording, std::vector<SanityFinding>& list) {
   const Series steps = intervals_of(recording.time);
   const double usual = median_of(steps);
   const auto widest = std::ranges::max_element(steps);
   const auto gaps = std::ranges::count_if(steps, [&](double s) { return s > kGap * usual; });
   if (gaps > 0) {
-    list.push_back(warning(
-        recording,
+    list.push_back(kGaps.on(
+        recording.id,
         fmt::format("{} gap{} in time, the longest of {:.3g} s at {:.6g} s, {:.0f} times the "
                     "usual interval",
                     gaps, gaps == 1 ? "" : "s", *widest,
                     recording.time[static_cast<std::size_t>(widest - steps.begin())],
-                    *widest / usual),
-        "cut it into recordings there: the motion in between is unknown"));
+                    *widest / usual)));
   }
   const auto twice = std::ranges::count_if(steps, [&](double s) { return s < kDuplicate * usual; });
   if (twice == 0) return;
-  list.push_back(warning(recording,
-                         fmt::format("{} time stamps repeat the one before, or nearly so", twice),
-                         "keep one row a stamp"));
+  list.push_back(kTwice.on(
+      recording.id, fmt::format("{} time stamps repeat the one before, or nearly so", twice)));
 }
 
 bool same_row(const Recording& recording, std::size_t i) {
@@ -64,11 +65,10 @@ void look_for_repeats(const Recording& recording, std::vector<SanityFinding>& li
   }
   const double share = static_cast<double>(repeats) / static_cast<double>(recording.time.size());
   if (share < kRepeats) return;
-  list.push_back(warning(recording,
-                         fmt::format("{:.0f} % of the rows are the row before again, with a later "
-                                     "time",
-                                     100.0 * share),
-                         "keep the rows that were measured: the log is faster than the sensors"));
+  list.push_back(kRepeated.on(
+      recording.id, fmt::format("{:.0f} % of the rows are the row before again, with a later "
+                                "time",
+                                100.0 * share)));
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
@@ -84,7 +84,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_time_stamps() {
-  return {"time_stamps", "gaps in time, stamps and rows that repeat", find};
+  return {
+      "time_stamps", "gaps in time, stamps and rows that repeat", {kGaps, kTwice, kRepeated}, find};
 }
 
 }  // namespace flexspline::data

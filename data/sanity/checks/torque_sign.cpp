@@ -10,6 +10,12 @@ namespace {
 
 using Eigen::ArrayXd;
 
+constexpr SanityVerdict kFalls{"check_sign", Severity::error,
+                               "check the signs of torque and angle: a spring resists"};
+constexpr SanityVerdict kRunsBackwards{"check_sign", Severity::error,
+                                       "check the sign of the torque, which column is angle and "
+                                       "which torque, and whether one is late"};
+
 constexpr double kSpring = 0.5;      // correlation of torque and torsion that is a spring
 constexpr double kDissipates = 0.1;  // of the torque's rms: with the wrong sign it is no delay
 
@@ -35,10 +41,6 @@ Loop loop_of(const Observed& o, bool travels) {
           regression(columns, o.effort, o.usable).coefficient[0] / rms};
 }
 
-SanityFinding finding(Severity severity, std::string what, std::string remedy) {
-  return {"check_sign", "", severity, "", std::move(what), std::move(remedy)};
-}
-
 std::vector<SanityFinding> find(const ObservedSet& all) {
   std::vector<double> springs;
   std::vector<double> losses;
@@ -51,18 +53,14 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
   const double spring = all.travels() ? 0.0 : median_of(springs);
   const double loss = median_of(losses);
   if (spring < -kSpring) {
-    return {
-        finding(Severity::error,
-                fmt::format("torque falls as torsion grows: their correlation is {:.2f}", spring),
-                "check the signs of torque and angle: a spring resists")};
+    return {kFalls.on(
+        "", fmt::format("torque falls as torsion grows: their correlation is {:.2f}", spring))};
   }
   if (loss < -kDissipates) {
-    return {finding(Severity::error,
-                    fmt::format("the loop runs backwards: {:.2g} of the torque's rms drives the "
-                                "motion instead of resisting it",
-                                -loss),
-                    "check the sign of the torque, which column is angle and which torque, and "
-                    "whether one is late")};
+    return {kRunsBackwards.on(
+        "", fmt::format("the loop runs backwards: {:.2g} of the torque's rms drives the "
+                        "motion instead of resisting it",
+                        -loss))};
   }
   return {};
 }
@@ -70,7 +68,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
 }  // namespace
 
 SanityRow describe_torque_sign() {
-  return {"torque_sign", "stiffness and dissipation that are negative", find};
+  return {
+      "torque_sign", "stiffness and dissipation that are negative", {kFalls, kRunsBackwards}, find};
 }
 
 }  // namespace flexspline::data

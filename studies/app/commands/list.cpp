@@ -14,6 +14,7 @@
 #include "flexspline/data/bench.hpp"
 #include "flexspline/data/exporter.hpp"
 #include "flexspline/data/rig_channels.hpp"
+#include "flexspline/data/sanity_check.hpp"
 #include "flexspline/data/table_reader.hpp"
 #include "flexspline/estimators/method.hpp"
 #include "flexspline/studies/kind.hpp"
@@ -151,6 +152,19 @@ ordered_json list_readers() {
   return list;
 }
 
+ordered_json list_checks() {
+  ordered_json list = ordered_json::array();
+  for (const data::SanityRow& row : data::sanity_checks()) {
+    ordered_json verdicts = ordered_json::array();
+    for (const data::SanityVerdict& one : row.verdicts) {
+      verdicts.push_back(
+          {{"code", one.code}, {"severity", data::name_of(one.severity)}, {"remedy", one.remedy}});
+    }
+    list.push_back({{"id", row.id}, {"says", row.says}, {"verdicts", verdicts}});
+  }
+  return list;
+}
+
 ordered_json list_commands() {
   ordered_json list = ordered_json::array();
   for (const CommandRow& row : commands()) {
@@ -175,11 +189,11 @@ struct Catalogue {
   ordered_json (*rows)();
 };
 
-constexpr Catalogue kCatalogues[] = {{"effects", list_effects}, {"laws", list_laws},
-                                     {"rigs", list_rigs},       {"estimators", list_estimators},
-                                     {"kinds", list_kinds},     {"metrics", list_metrics},
-                                     {"truths", list_truths},   {"exporters", list_exporters},
-                                     {"readers", list_readers}, {"commands", list_commands}};
+constexpr Catalogue kCatalogues[] = {
+    {"effects", list_effects},       {"laws", list_laws},           {"rigs", list_rigs},
+    {"estimators", list_estimators}, {"kinds", list_kinds},         {"metrics", list_metrics},
+    {"truths", list_truths},         {"exporters", list_exporters}, {"readers", list_readers},
+    {"checks", list_checks},         {"commands", list_commands}};
 
 constexpr std::string_view kReference = "reference";  // all catalogues, as pages
 
@@ -230,10 +244,10 @@ CommandRow describe_list() {
           .group = "Models",
           .summary =
               "The catalogues: effects, laws, rigs, estimators, kinds, metrics, truths, exporters, "
-              "readers, commands",
+              "readers, checks, commands",
           .arguments = {{.name = "catalogue",
                          .meaning = "effects, laws, rigs, estimators, kinds, metrics, truths, "
-                                    "exporters, readers or commands",
+                                    "exporters, readers, checks or commands",
                          .value = "CATALOGUE",
                          .required = true},
                         {.name = "--pages",
