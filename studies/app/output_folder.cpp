@@ -78,6 +78,17 @@ std::string content_of(const fs::path& folder) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
+/// ": seed is 7 there and 8 here; ..."; empty where nothing is known.
+std::string differences(const OutputWish& wish) {
+  constexpr std::size_t kTold = 12;
+  if (!wish.differs || wish.differs->empty()) return "";
+  std::vector<std::string> told = *wish.differs;
+  const std::size_t more = told.size() > kTold ? told.size() - kTold : 0;
+  told.resize(told.size() - more);
+  return fmt::format(": {}{}", fmt::join(told, "; "),
+                     more > 0 ? fmt::format("; and {} more keys", more) : "");
+}
+
 /// True: it is empty, or does not exist yet, or was claimed and nothing came of it.
 Result<bool> check_content(const OutputWish& wish, const data::Manifest& wanted) {
   const std::string content = content_of(wish.folder);
@@ -85,6 +96,9 @@ Result<bool> check_content(const OutputWish& wish, const data::Manifest& wanted)
   const auto earlier = data::read_manifest(wish.folder);
   if (earlier && !earlier->finished && content == data::kManifestFile) return true;
   if (wish.force || (earlier && earlier->same_origin(wanted))) return false;
+  if (earlier && earlier->command == wish.command && wish.differs && wish.differs->empty()) {
+    return false;
+  }
   constexpr const char* kRemedy =
       "choose another folder, or add --force to replace what has the same name there";
   if (!earlier) {
@@ -92,14 +106,19 @@ Result<bool> check_content(const OutputWish& wish, const data::Manifest& wanted)
                   fmt::format("holds what {} did not write: {}", wish.command, content), kRemedy);
   }
   const bool same_name = earlier->command == wish.command && earlier->input == wish.input;
-  return refuse(wish.folder,
-                same_name
-                    ? fmt::format("holds what {} wrote of another '{}': the name is the same, "
-                                  "where it lies and what it says are not",
-                                  earlier->command, earlier->input)
-                    : fmt::format("holds what {} wrote of '{}', not {} of '{}'", earlier->command,
-                                  earlier->input, wish.command, wish.input),
-                kRemedy);
+  if (!same_name) {
+    return refuse(wish.folder,
+                  fmt::format("holds what {} wrote of '{}', not {} of '{}'{}", earlier->command,
+                              earlier->input, wish.command, wish.input, differences(wish)),
+                  kRemedy);
+  }
+  return refuse(
+      wish.folder,
+      fmt::format("holds what {} wrote of another '{}'{}", earlier->command, earlier->input,
+                  wish.differs ? differences(wish)
+                               : ": the name is the same, where it lies and what it says "
+                                 "are not"),
+      kRemedy);
 }
 
 fs::path topmost_missing(const fs::path& folder) {

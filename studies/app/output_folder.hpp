@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct OutputWish {
   std::filesystem::path place;  ///< where it lies; empty: another content is another thing
   std::vector<std::filesystem::path> read;  ///< files and folders that are never written to
   bool force = false;
+  /// What it says otherwise than what the folder holds, key by key; none: it says the same,
+  /// whatever its bytes. Absent: not known.
+  std::optional<std::vector<std::string>> differs{};
 };
 
 /// A folder that a command may write to. It says what it holds in its manifest.json: from the

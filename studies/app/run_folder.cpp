@@ -55,6 +55,7 @@ OutputWish wish_of(const studies::PlannedStudy& study, const FolderRun& run) {
   for (const std::filesystem::path& one : study.reads()) wish.read.push_back(one);
   const auto sums = study.data();
   if (!study.file().empty()) {
+    wish.differs = studies::differences_from(run.folder, study);
     wish.sha256 = data::sha256_hex(read_file(study.file()).value_or(""));
     wish.read.push_back(study.file());
   } else if (!sums.empty()) {
@@ -165,6 +166,16 @@ Result<studies::RunSummary> run_in_folder(const studies::PlannedStudy& study, co
   if (const auto few = refuse_many(study, run); !few) return tl::unexpected(few.error());
   auto output = OutputFolder::claim(wish_of(study, run));
   if (!output) return tl::unexpected(output.error());
+  const auto differs = studies::differences_from(run.folder, study);
+  for (const std::string& one : differs.value_or(std::vector<std::string>())) {
+    console.say(fmt::format("edited since {} was computed: {}", run.folder.string(), one));
+  }
+  for (const std::string& input : studies::changed_data(run.folder, study)) {
+    console.say(
+        fmt::format("{}: its data set has changed since {} was computed: its cases are computed "
+                    "again, the earlier ones set aside",
+                    input, run.folder.string()));
+  }
   for (const auto& [input, note] : study.notes()) console.say(fmt::format("{}: {}", input, note));
   auto summary = computed(study, run, console);
   if (!summary) return summary;

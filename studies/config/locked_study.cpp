@@ -123,6 +123,11 @@ bool has_model(const json& study) {
   return false;
 }
 
+/// Whether the configuration as understood says all of it: a grid without sweeps and model files.
+bool is_whole(const json& study) {
+  return study.value("kind", "grid") == "grid" && !study.contains("sweep") && !has_model(study);
+}
+
 }  // namespace
 
 Result<json> read_lock_json(const fs::path& lock) {
@@ -146,8 +151,10 @@ Result<StudyConfig> read_locked_study(const fs::path& lock, const fs::path& data
   const auto locked = read_lock_json(lock);
   if (!locked) return tl::unexpected(locked.error());
   try {
-    if (locked->contains("source")) return from_source(locked->at("source"), data_root);
     const json& study = locked->at("study");
+    if (locked->contains("source") && !is_whole(study)) {
+      return from_source(locked->at("source"), data_root);
+    }
     if (has_model(study)) {
       return failure(ErrorCode::bad_data, lock.string() + " holds a model file's content",
                      "give the study file itself");

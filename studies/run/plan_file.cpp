@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "config/differing_keys.hpp"
 #include "config/locked_json.hpp"
 #include "config/toml_root.hpp"
 #include "flexspline/core/write_file.hpp"
@@ -43,6 +44,31 @@ Result<PlannedStudyPtr> locked_trial(const nlohmann::json& lock,
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> differences_from(const std::filesystem::path& folder,
+                                                         const PlannedStudy& study) {
+  const auto lock = read_lock_json(folder / "study.lock.toml");
+  if (!lock || study.text().empty()) return std::nullopt;
+  const auto source = lock->find("source");
+  if (source == lock->end() || !source->contains("text")) return std::nullopt;
+  const nlohmann::json& text = source->at("text");
+  if (!text.is_string()) return std::nullopt;
+  return differing_keys(text.get<std::string>(), study.text());
+}
+
+std::vector<std::string> changed_data(const std::filesystem::path& folder,
+                                      const PlannedStudy& study) {
+  std::vector<std::string> changed;
+  const auto lock = read_lock_json(folder / "study.lock.toml");
+  if (!lock) return changed;
+  const nlohmann::json known = lock->value("datasets", nlohmann::json::object());
+  for (const auto& [id, sum] : study.data()) {
+    const auto one = known.find(id);
+    if (one == known.end() || !one->is_object()) continue;
+    if (one->value("sha256", sum) != sum) changed.push_back(id);
+  }
+  return changed;
+}
 
 Result<PlannedStudyPtr> plan_file(const std::filesystem::path& file,
                                   const std::filesystem::path& data_root,

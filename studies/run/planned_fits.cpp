@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "config/study_source.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/studies/planned_study.hpp"
 #include "flexspline/studies/results.hpp"
@@ -30,6 +31,7 @@ class PlannedFits : public PlannedStudy {
   std::string kind() const override { return study_->kind; }
   std::size_t size() const override { return plan_.size(); }
   std::filesystem::path file() const override { return study_->file; }
+  std::string text() const override { return study_->source ? study_->source->text : ""; }
   std::vector<std::filesystem::path> reads() const override {
     std::vector<std::filesystem::path> sets;
     for (const InputConfig& input : study_->inputs) {

@@ -30,9 +30,9 @@ std::string lasting(const std::filesystem::path& path) {
 
 namespace {
 
-/// What a study that is more than its grid is read back from.
+/// What a study is told apart by, and one that is more than its grid is read back from.
 void add_source(const StudyConfig& study, ordered_json& lock) {
-  if (study.source == nullptr || (study.kind == "grid" && study.sweeps.empty())) return;
+  if (study.source == nullptr) return;
   lock["source"] = {{"file", lasting(study.source->file)},
                     {"data_root", lasting(study.source->data_root)},
                     {"model_root", lasting(study.source->model_root)},

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "flexspline/core/write_file.hpp"
 #include "trial/trial_cases.hpp"
 #include "trial/trial_json.hpp"
 
@@ -20,6 +21,7 @@ class PlannedTrial : public PlannedStudy {
   std::string kind() const override { return "trial"; }
   std::size_t size() const override { return cases_.size(); }
   std::filesystem::path file() const override { return trial_.file; }
+  std::string text() const override { return read_file(trial_.file).value_or(""); }
   std::vector<std::filesystem::path> reads() const override { return trial_.spliced_sets; }
   ordered_json summary() const override { return {{"design", design_json(trial_)}}; }
   ordered_json case_summary(std::size_t number) const override {

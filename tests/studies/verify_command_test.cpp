@@ -26,6 +26,18 @@ TEST_F(VerifyCommand, FindsEveryFileAsItWasWritten) {
   EXPECT_EQ(run_program({"verify", path("out"), "--jobs", "1"}).code, 0) << "drawn again";
 }
 
+TEST_F(VerifyCommand, ReadsAStudyWithAModelFileBack) {
+  std::string study = kSmallStudy;
+  const std::string method = "method = \"midpoint_polynomial\"";
+  study.replace(study.find(method), method.size(),
+                "method = \"model_file\"\nmodel = \"model.toml\"");
+  folder_.write("study.toml", study);
+  ASSERT_EQ(run_program({"run", path("study.toml"), "--out", path("out")}).code, 0);
+  const Ended ended = run_program({"verify", path("out"), "--jobs", "1"});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_THAT(ended.result, HasSubstr("bitwise"));
+}
+
 TEST_F(VerifyCommand, NamesEveryFileThatWasTamperedWith) {
   ASSERT_EQ(simulate("set").code, 0);
   ASSERT_EQ(

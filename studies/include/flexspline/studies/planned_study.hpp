@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ class PlannedStudy {
   virtual std::string kind() const = 0;
   virtual std::size_t size() const = 0;
   virtual std::filesystem::path file() const = 0;  ///< empty: no file describes it
+  virtual std::string text() const = 0;            ///< of the file, as it was read
   /// What it reads beside the file, as far as it is to be kept apart from what is written.
   virtual std::vector<std::filesystem::path> reads() const = 0;
   /// SHA-256 of its data sets by the ids of their inputs.
@@ -55,6 +57,15 @@ Result<PlannedStudyPtr> plan_fits(StudyConfig study, const std::string& build_id
 Result<PlannedStudyPtr> plan_file(const std::filesystem::path& file,
                                   const std::filesystem::path& data_root,
                                   const std::string& build_id);
+
+/// What a study says otherwise than the one that was computed in a folder, key by key with both
+/// values; empty where only comments and layout differ. Nothing where no study file is known there.
+std::optional<std::vector<std::string>> differences_from(const std::filesystem::path& folder,
+                                                         const PlannedStudy& study);
+
+/// Inputs whose data sets are not those that a folder was computed from, by their ids.
+std::vector<std::string> changed_data(const std::filesystem::path& folder,
+                                      const PlannedStudy& study);
 
 /// The study of a folder, from its study.lock.toml. Errors: as above, of read_locked_study.
 Result<PlannedStudyPtr> plan_locked(const std::filesystem::path& lock,
