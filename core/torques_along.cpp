@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -107,6 +108,25 @@ Series predicted(Series measured, const EquationResidual& left) {
   return measured;
 }
 
+/// 1 + e of torque_constant_error.
+double true_over_recorded(const ModelSpec& model) {
+  double gain = 1.0;
+  for (const EffectSpec& one : model.effects) {
+    if (one.effect == "torque_constant_error") gain += one.parameters.front().second;
+  }
+  return gain;
+}
+
+/// J2 theta_l'' + B2 theta_l' + m g l sin(theta_l): what a rigid transmission hands on.
+Series torque_on_load(const DriveSpec& drive, const DriveChannels& c) {
+  Series torque(c.time.size());
+  for (std::size_t i = 0; i < torque.size(); ++i) {
+    torque[i] = drive.load_inertia * c.load_acceleration[i] + drive.load_viscous * c.load_speed[i] +
+                drive.load_mass * drive.gravity * drive.arm_length * std::sin(c.load_angle[i]);
+  }
+  return torque;
+}
+
 struct Along {
   const RigModel& model;
   DriveChannels channels;
@@ -122,6 +142,10 @@ struct Along {
   Result<void> transmission() {
     Series measured = channels.transmitted_torque;
     if (measured.empty()) channels.transmitted_torque.assign(channels.time.size(), 0.0);
+    if (model.rig == Rig::servo) {
+      if (measured.empty()) channels.transmitted_torque = torque_on_load(model.drive, channels);
+      return {};
+    }
     const auto left = residuals(model.rig, model.drive, channels);
     if (!left) return tl::unexpected(left.error());
     if (left->torsion.value.empty()) return {};
@@ -140,6 +164,9 @@ struct Along {
       for (double& x : own.value) x /= model.drive.gear_ratio;
     }
     if (own.value.empty()) return {};
+    // true torque = (1 + e) recorded, and the recorded one is the result
+    const double gain = true_over_recorded(model.drive.torsion);
+    for (double& x : own.value) x /= gain;
     return enter(Quantity::motor_torque, Site::motor_torque_signal,
                  predicted(channels.motor_torque, own));
   }

@@ -60,28 +60,50 @@ double torque_of_recorded(const Frame& frame, double weight) {
   return frame.drives == Quantity::motor_torque && std::abs(nm - 1.0) > 0.5 ? 1.0 : nm;
 }
 
-double norm_of(const Frame& frame, const ActiveCause& cause, const Reference& reference,
-               std::size_t k) {
-  return cause.form->columns(Equation::motor, frame, reference, cause.shape)[k].matrix().norm();
+double norm_of(const Frame& frame, const ActiveCause& cause, Equation equation,
+               const Reference& reference, std::size_t k) {
+  return cause.form->columns(equation, frame, reference, cause.shape)[k].matrix().norm();
+}
+
+Frame in_true_torque(Frame frame, const TorqueGains& gains) {
+  for (auto* torque : {&frame.motor_torque, &frame.smooth_motor_torque, &frame.motor_torque_rate}) {
+    *torque *= gains.motor;
+  }
+  for (auto* torque : {&frame.torque, &frame.smooth_torque, &frame.torque_rate}) {
+    *torque *= gains.sensor;
+  }
+  return frame;
+}
+
+Reference in_true_torque(Reference reference, const TorqueGains& gains) {
+  for (auto* law : {&reference.elastic, &reference.dissipative, &reference.friction}) {
+    *law *= gains.sensor;
+  }
+  return reference;
 }
 
 }  // namespace
 
-RigConstants rig_constants(const Frame& frame, const DriveModel& model) {
-  RigConstants constants;
+RigConstants rig_constants(const Frame& frame, const DriveModel& model, TorqueGains gains) {
+  RigConstants constants{{}, gains};
   DriveSpec& drive = constants.drive;
   drive.gear_ratio = frame.ratio;
   drive.motor_inertia = frame.motor_inertia;
   drive.load_inertia = frame.load_inertia;
-  if (frame.has(Equation::load)) drive.load_viscous = model.own[index_of(Equation::load)][0];
+  if (frame.has(Equation::load)) {
+    drive.load_viscous = gains.sensor * model.own[index_of(Equation::load)][0];
+  }
   if (!frame.has(Equation::motor)) return constants;
   VectorXd own = model.own[index_of(Equation::motor)];
   const Index dry = static_cast<Index>(dry_widths(frame).size());
   if (frame.rig == Rig::servo) {
-    constants.torque_of_recorded = torque_of_recorded(frame, own[1 + dry]);
-    own *= constants.torque_of_recorded;
+    constants.gains.motor = torque_of_recorded(frame, own[1 + dry]);
+  }
+  own *= constants.gains.motor;
+  if (frame.rig == Rig::servo) {
     put_load(frame, own[1 + dry], own[2 + dry], drive);
-    put_feed(frame, constants.torque_of_recorded, drive);
+    put_feed(frame, constants.gains.motor, drive);
+    constants.gains.sensor = drive.load_mass / (frame.load_mass > 0.0 ? frame.load_mass : 1.0);
   }
   drive.motor_viscous = own[0];
   put_dry_friction(frame, own.segment(1, dry), drive);
@@ -112,20 +134,21 @@ void mark_origin(const Frame& frame, RigModel& model) {
   origin["h"] = model.drive.torsion.h.coefficients.empty() ? Origin::assumed : Origin::fitted;
 }
 
-// A column that grows with the recorded torque needs no factor, one that does not needs it whole.
-VectorXd RigConstants::in_torque(const Frame& frame, const ActiveCause& cause,
+// A column that grows with the torque that was read needs no factor, one that does not needs it
+// whole.
+VectorXd RigConstants::in_torque(const Frame& frame, const ActiveCause& cause, Equation equation,
                                  const VectorXd& coefficients, const Reference& reference) const {
-  if (torque_of_recorded == 1.0 || cause.form->columns == nullptr) return coefficients;
-  Frame scaled = frame;
-  scaled.motor_torque *= torque_of_recorded;
-  scaled.smooth_motor_torque *= torque_of_recorded;
-  scaled.motor_torque_rate *= torque_of_recorded;
+  const bool as_read = gains.motor == 1.0 && gains.sensor == 1.0;
+  if (as_read || cause.form->columns == nullptr) return coefficients;
+  const Frame true_frame = in_true_torque(frame, gains);
+  const Reference true_reference = in_true_torque(reference, gains);
+  const double factor = equation == Equation::motor ? gains.motor : gains.sensor;
   VectorXd in_nm = coefficients;
   for (Index k = 0; k < in_nm.size(); ++k) {
     const auto column = static_cast<std::size_t>(k);
-    const double now = norm_of(scaled, cause, reference, column);
+    const double now = norm_of(true_frame, cause, equation, true_reference, column);
     if (!(now > 0.0)) continue;
-    in_nm[k] *= torque_of_recorded * norm_of(frame, cause, reference, column) / now;
+    in_nm[k] *= factor * norm_of(frame, cause, equation, reference, column) / now;
   }
   return in_nm;
 }

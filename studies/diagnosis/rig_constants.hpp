@@ -5,20 +5,27 @@
 
 namespace flexspline::studies {
 
+/// True torque over what was read of it: of the motor, and of the sensor across the transmission.
+struct TorqueGains {
+  double motor = 1.0;
+  double sensor = 1.0;
+};
+
 /// A rig's constants: ratio, inertias and masses as known, viscous and dry friction of the
 /// baseline. Dry friction beyond its largest part stands as effects coulomb_viscous_friction.
 struct RigConstants {
   DriveSpec drive;
-  /// Nm of the motor over what of it was recorded. Not 1 on a servo alone, where the known weight
-  /// of its load is what tells a torque: tau_m = K u, K = 1/(N c) for u = c m g l sin(theta) + ...
-  double torque_of_recorded = 1.0;
+  /// On a servo the known weight of its load is what tells a torque: tau_m = K u, K = 1/(N c) for
+  /// u = c m g l sin(theta) + ...; its transmitted torque is in units of that weight.
+  TorqueGains gains;
 
-  /// A cause's coefficients with the motor's torque in Nm.
-  Eigen::VectorXd in_torque(const Frame& frame, const ActiveCause& cause,
+  /// A cause's coefficients in an equation of true torques.
+  Eigen::VectorXd in_torque(const Frame& frame, const ActiveCause& cause, Equation equation,
                             const Eigen::VectorXd& coefficients, const Reference& reference) const;
 };
 
-RigConstants rig_constants(const Frame& frame, const DriveModel& model);
+/// gains: by causes of the model; a servo's motor has its own.
+RigConstants rig_constants(const Frame& frame, const DriveModel& model, TorqueGains gains);
 
 /// Where the constants and laws of a diagnosis' model come from. What the set states stays given,
 /// but for an inertia that a cause corrects.

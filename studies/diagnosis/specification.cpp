@@ -53,8 +53,7 @@ class Specifier {
         model_(model),
         remarks_(remarks),
         seen_(seen_by_the_laws(frame, model)),
-        reference_(reference_of(frame, model)),
-        constants_(rig_constants(seen_, model)) {
+        reference_(reference_of(frame, model)) {
     if (frame.has(Equation::torsion)) {
       slipping_ = (reference_.friction - reference_.dissipative).abs().maxCoeff();
     }
@@ -62,16 +61,17 @@ class Specifier {
   }
 
   Specification specify() {
-    rig_ = {frame_.rig, constants_.drive};
     const auto refused = cancelling(frame_, model_, reference_);
     for (const Cancelling& pair : refused) say("model.toml lacks {}", in_words(model_, pair));
+    std::vector<std::size_t> taken;
     for (std::size_t i = 0; i < model_.causes.size(); ++i) {
       if (std::ranges::none_of(refused, [&](const Cancelling& pair) { return pair.has(i); }))
-        add(i);
+        taken.push_back(i);
     }
+    constants_ = rig_constants(seen_, model_, gains_of(taken));
+    rig_ = {frame_.rig, constants_.drive};
+    for (const std::size_t i : taken) add(i);
     put_laws();
-    auto& effects = constants_.drive.torsion.effects;
-    spec().effects.insert(spec().effects.begin(), effects.begin(), effects.end());
     mark_origin(frame_, rig_);
     return {std::move(rig_), std::move(notes_)};
   }
@@ -96,10 +96,12 @@ class Specifier {
                                                    : form.no_counterpart);
       return;
     }
-    const Eigen::VectorXd coefficients =
-        constants_.in_torque(seen_, cause, model_.coefficients[i], reference_);
-    Counterpart counterpart = form.counterpart(
-        {seen_, cause.shape, coefficients, sign_, reference_.torsion_coulomb_rate, slipping_});
+    Counterpart counterpart = counterpart_of(cause, model_.coefficients[i]);
+    if (!form.rescales && !of_torque_sensor(counterpart)) {
+      counterpart = counterpart_of(
+          cause, constants_.in_torque(seen_, cause, first_equation(frame_, form),
+                                      model_.coefficients[i], reference_));
+    }
     for (const EffectSpec& effect : counterpart.effects) {
       const std::string why = out_of_range(effect);
       if (why.empty()) continue;
@@ -112,6 +114,36 @@ class Specifier {
       say("model.toml holds {}: {}", cause.row->id, remarks_[i]);
     }
     take(cause, std::move(counterpart));
+  }
+
+  Counterpart counterpart_of(const ActiveCause& cause, const Eigen::VectorXd& coefficients) const {
+    return cause.form->counterpart(
+        {seen_, cause.shape, coefficients, sign_, reference_.torsion_coulomb_rate, slipping_});
+  }
+
+  /// What a sensor adds to the torque that it reads is in the torque that is read.
+  static bool of_torque_sensor(const Counterpart& counterpart) {
+    return std::ranges::any_of(counterpart.effects, [](const EffectSpec& effect) {
+      const auto row = find_effect(effect.effect);
+      return row && (*row)->site == Site::torque_signal;
+    });
+  }
+
+  /// Of the causes that correct a torque's gain, among those that stand in the file.
+  TorqueGains gains_of(const std::vector<std::size_t>& taken) const {
+    TorqueGains gains;
+    for (const std::size_t i : taken) {
+      const ActiveCause& cause = model_.causes[i];
+      if (!cause.form->rescales || cause.form->counterpart == nullptr) continue;
+      const Counterpart counterpart = counterpart_of(cause, model_.coefficients[i]);
+      for (const EffectSpec& effect : counterpart.effects) {
+        if (!out_of_range(effect).empty()) continue;
+        const double factor = 1.0 + effect.parameters.front().second;
+        if (effect.effect == "torque_constant_error") gains.motor *= factor;
+        if (effect.effect == "torque_sensor_gain") gains.sensor /= factor;
+      }
+    }
+    return gains;
   }
 
   /// False, and a note, where nothing would be left of an inertia.
@@ -196,6 +228,9 @@ class Specifier {
 
   // Dry friction as an effect, what grows with the rate as g^-1.
   void put_travelling_laws(const Eigen::VectorXd& own, Index travel) {
+    if (difference_ != 0.0) {
+      say("model.toml: direction_asymmetry: of dry friction both directions have the mean");
+    }
     spec().f = {.law = "free_spline",
                 .scale = 1.0,
                 .knots = {seen_.torsion.minCoeff(), seen_.torsion.maxCoeff()},

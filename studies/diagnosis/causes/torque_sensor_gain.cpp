@@ -12,9 +12,11 @@ Columns gain(Equation equation, const Frame& f, const Reference&, Values) {
   return {-f.torque / f.ratio};
 }
 
-// f and g^-1 were fitted to the torque that was read, larger by the gain.
+// f and g^-1 were fitted to the torque that was read, larger by the gain. The load's equation tells
+// it as it is, the motor's alone by the share e/(1 + e) that was read too much.
 Counterpart as_gain(const FittedCause& c) {
-  const double error = c.coefficients[0];
+  const double told = c.coefficients[0];
+  const double error = c.frame.has(Equation::load) ? told : told / (1.0 - told);
   return {.effects = {{"torque_sensor_gain", {{"error", error}}}},
           .law_factor = 1.0 / (1.0 + error)};
 }
