@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "export/carrier.hpp"
+#include "export/inertia_there.hpp"
 
 namespace flexspline::data {
 namespace {
@@ -27,6 +28,7 @@ Result<Carried> carry_rigidly(const RigModel& model, std::string_view form) {
         fmt::format("a {} rig's model has no turning output for {}", name_of(model.rig), form),
         "export a free or servo rig's, or as c99, fmu or table");
   }
+  if (auto there = inertia_there(model, form, true); !there) return tl::unexpected(there.error());
   Carrier carrier(model);
   carrier.drop_instruments();
   carrier.drop_effects([&](const EffectRow& row, const EffectSpec& effect) {

@@ -7,6 +7,7 @@
 #include "export/c_model.hpp"
 #include "export/carrier.hpp"
 #include "export/filled.hpp"
+#include "export/inertia_there.hpp"
 #include "export/law_fits.hpp"
 #include "export/mjcf_friction.hpp"
 #include "export/xml.hpp"
@@ -62,6 +63,7 @@ Result<Carried> carry(const RigModel& model) {
     return failure(ErrorCode::bad_data, "a specimen has no shafts that a joint could be",
                    "export it as c99, fmu or table, or state its [rig]");
   }
+  if (auto there = inertia_there(model, "MuJoCo"); !there) return tl::unexpected(there.error());
   Carrier carrier(model);
   carrier.drop_instruments();
   carrier.drop_effects(no_place);
