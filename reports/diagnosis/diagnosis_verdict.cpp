@@ -8,8 +8,8 @@ namespace {
 
 std::string meaning_of(const std::string& verdict) {
   if (verdict == "adequate") {
-    return "Adequate: the baseline explains the recordings to within their noise. Nothing was left "
-           "out that they could show.";
+    return "Adequate: the baseline explains the recordings to within their noise. Nothing is "
+           "missing from it that they could show.";
   }
   if (verdict == "explained") {
     return "Explained: physics is missing from the baseline, and with it the recordings are "
