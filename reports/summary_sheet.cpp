@@ -31,6 +31,11 @@ figure > svg { display: block; margin: 0 auto; }
 .flat > svg { width: 182mm; height: 42mm; }
 .origin { font-size: 7.5pt; color: #333; overflow-wrap: anywhere; }
 @media screen { body { padding: 8mm 0; } }
+@media screen and (max-width: 190mm) {
+  body { width: auto; padding: 4mm; }
+  table { display: block; overflow-x: auto; }
+  figure > svg { width: 100%; height: auto; }
+}
 )";
 
 std::string row(const ShownCause& cause) {

@@ -45,6 +45,10 @@ async function checkSummary(from, file, at) {
   check(drawn === 3, `${at}: ${drawn} figures on the summary`);
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   check(wide <= (page.viewportSize()?.width ?? 0), `${at}: the summary is ${wide} px wide`);
+  await page.emulateMedia({ media: "screen" });
+  await page.setViewportSize({ width: 390, height: 844 });
+  const onPhone = await page.evaluate(() => document.documentElement.scrollWidth);
+  check(onPhone <= 390, `${at}: the summary is ${onPhone} px wide on a phone`);
   await page.close();
 }
 
@@ -198,6 +202,22 @@ async function checkStart(browser, url, at) {
   check(size <= kMostBytes, `${at}: ${size} bytes`);
 }
 
+/** On paper nothing is wider than the paper, which a browser would shrink, and figures are drawn anew for it. */
+async function checkPrint(page, at) {
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  const { paper, widest, charts } = await page.evaluate(() => ({
+    paper: document.querySelector("main").getBoundingClientRect().right,
+    widest: Math.max(...[...document.querySelectorAll("main table, main .chart svg, main p")].map((one) => one.getBoundingClientRect().right)),
+    charts: [...document.querySelectorAll(".chart svg")].map((one) => Number(one.getAttribute("width"))),
+  }));
+  check(paper < 720, `${at}: the print is ${paper} px wide`);
+  check(widest <= paper + 1, `${at}: something in print reaches ${widest} px, the paper ${paper}`);
+  check(charts.every((one) => one <= paper + 1), `${at}: charts are printed ${Math.max(...charts)} px wide`);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  await page.emulateMedia({ media: null });
+}
+
 async function visit(browser, report, url, width, scheme, folder) {
   const at = `${report.name}, ${width} px, ${scheme}`;
   const desk = width > 1000 && scheme === "light";  // pointer and keyboard act alike on every screen
@@ -230,6 +250,7 @@ async function visit(browser, report, url, width, scheme, folder) {
     const pdf = await page.pdf({ format: "A4" });
     writeFileSync(join(work, `${report.name}.pdf`), pdf);
     check(pdf.length > 20000, `${at}: the print is empty`);
+    await checkPrint(page, at);
     const summary = page.locator("p.summary a");
     if ((await summary.count()) > 0) await checkSummary(page, await summary.getAttribute("href"), at);
   }
