@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "flexspline/core/passing_file.hpp"
 
 namespace flexspline {
@@ -65,8 +67,8 @@ int create_whole(const std::filesystem::path& path, std::string_view content) {
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   std::filesystem::path result = path;
-  result.replace_filename("." + path.filename().string() + "." + std::to_string(::getpid()) + "-" +
-                          std::to_string(counter++) + ".part");
+  result.replace_filename(
+      fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), counter++));
   return result;
 }
 

@@ -99,7 +99,7 @@ std::string build_description(const std::string& name) {
 Result<std::vector<ExportedFile>> write(const RigModel& model, const ExportHead& head) {
   auto c = c_model(model, head);
   if (!c) return tl::unexpected(c.error());
-  const std::string token = "{" + sha256_hex(c->header + c->source).substr(0, 32) + "}";
+  const std::string token = fmt::format("{{{}}}", sha256_hex(c->header + c->source).substr(0, 32));
   const std::vector<ExportedFile> sources = {
       {head.name + ".h", std::move(c->header)},
       {head.name + ".c", std::move(c->source)},

@@ -114,7 +114,7 @@ std::optional<MdfChannel> mdf_channel(const MdfFile& file, const MdfBlock& block
   one.conversion = conversion_of(file, block.link(4), is_text);
   one.column = {file.text(block.link(2)), unit_of(file, block),
                 (kind == 2 || kind == 3) && sync == 1};
-  if (one.column.clock && one.column.unit.empty()) one.column.unit = "s";
+  if (one.column.clock && one.column.unit.empty()) one.column.unit += 's';
   one.counted = kind == 3 || kind == 6;
   const bool fixed = kind == 0 || kind == 2 || kind == 4 || one.counted;
   if (!fixed || type > 5 || is_text || (flags & 1U) != 0 || block.link(1) != 0) return std::nullopt;

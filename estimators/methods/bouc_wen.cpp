@@ -110,7 +110,7 @@ Estimate estimate_of(const LeastSquaresSolution& solution, const Linearisation& 
   estimate.residual = "torque along the measured motion, in standard deviations of its noise";
   estimate.fits = recording_fits(records, at.residual);
   estimate.identifiability.condition = scaled_condition(at.jacobian);
-  estimate.notes.push_back("one internal state: it forgets where earlier reversals were");
+  estimate.notes.emplace_back("one internal state: it forgets where earlier reversals were");
   estimate.evaluations = solution.evaluations;
   return estimate;
 }

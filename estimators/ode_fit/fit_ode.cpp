@@ -55,7 +55,7 @@ Result<OdeSolution> solve_and_weigh(OdeLayout& layout, OdeFitMethod method,
     solution->evaluations += evaluations;
     if (*change < kSettled) return solution;
   }
-  if (solution) solution->notes.push_back("the weights of the outputs have not settled");
+  if (solution) solution->notes.emplace_back("the weights of the outputs have not settled");
   return solution;
 }
 

@@ -96,7 +96,7 @@ Result<void> add_intervals(const OdeLayout& layout, const std::vector<double>& q
                            const OdeFitSettings& settings, OdeFit& fit) {
   if (settings.uncertainty.kind == Uncertainty::covariance) return {};
   if (layout.inequalities != nullptr) {
-    fit.notes.push_back(
+    fit.notes.emplace_back(
         "intervals are those of the covariance: refits would leave the inequalities "
         "out");
     return {};

@@ -64,7 +64,7 @@ Result<OdeFit> from_search(const std::vector<OdeFitProblem>& copies,
   fit->notes.push_back(found->says);
   if (found->at_best < 2 && fit->termination == Termination::converged) {
     fit->termination = Termination::no_progress;
-    fit->notes.push_back("no two searches agree on the lowest cost, so it is not taken for it");
+    fit->notes.emplace_back("no two searches agree on the lowest cost, so it is not taken for it");
   }
   return fit;
 }

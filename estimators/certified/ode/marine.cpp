@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "certified/ode_rows.hpp"
 
 namespace flexspline::estimators {
@@ -60,7 +62,7 @@ CertifiedOde describe_marine() {
   }
   auto experiment = fully_observed("marine", std::vector<double>(8, 0.0), kTimes, kMeasured);
   for (std::size_t s = 0; s < kStagesOfLife; ++s) {
-    OdeParameter number{.name = "y" + std::to_string(s + 1) + "(0)", .start = kMeasured[s]};
+    OdeParameter number{.name = fmt::format("y{}(0)", s + 1), .start = kMeasured[s]};
     number.scale = kMeasured[s];
     experiment.initial[s] = number;
   }
