@@ -2,6 +2,7 @@
 #include <regex>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -140,7 +141,7 @@ std::vector<std::string> offences_in(const std::string& text) {
   for (const auto& [pattern, instead] : patterns) {
     std::smatch found;
     if (std::regex_search(text, found, pattern)) {
-      offences.push_back("'" + found.str() + "'; write: " + instead);
+      offences.push_back(fmt::format("'{}'; write: {}", found.str(), instead));
     }
   }
   return offences;
