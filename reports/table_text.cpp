@@ -139,9 +139,9 @@ std::string csv_of(const Table& table) {
 std::string markdown_of(const Table& table) {
   std::string names = "|", rule = "|", units = "|";
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    names += " " + markdown_text(table.columns[i].name) + " |";
+    names += fmt::format(" {} |", markdown_text(table.columns[i].name));
     rule += is_numeric(table, i) ? " ---: |" : " --- |";
-    units += " " + markdown_text(table.columns[i].unit) + " |";
+    units += fmt::format(" {} |", markdown_text(table.columns[i].unit));
   }
   std::string text = names + "\n" + rule + "\n" + units + "\n";
   for (const auto& row : table.rows) {

@@ -184,7 +184,7 @@ class Parser {
     Formula one = leaf(Kind::symbol, text);
     if (text == "th1") {
       one.text = "theta";
-      one.index = "1";
+      one.index += '1';
     } else if (!is_greek(text) && text.size() > 1) {
       one.text = text.substr(0, 1);
       one.index = text.substr(1);
@@ -194,7 +194,8 @@ class Parser {
       one.index += letters();
       while (here() == ',' && is_letter(here(1))) {
         ++at_;
-        one.index += "," + letters();
+        one.index += ',';
+        one.index += letters();
       }
     }
     for (; here() == '\''; ++at_) ++one.primes;

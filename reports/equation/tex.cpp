@@ -1,5 +1,7 @@
 #include <map>
 
+#include <fmt/format.h>
+
 #include "equation/formula.hpp"
 #include "flexspline/reports/equation.hpp"
 
@@ -53,7 +55,8 @@ std::string row_tex(const std::vector<Formula>& parts) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].kind != Kind::word) {
-      text += (text.empty() ? "" : " ") + tex(parts[i]);
+      if (!text.empty()) text += ' ';
+      text += tex(parts[i]);
       continue;
     }
     std::string words = parts[i].text;
@@ -74,9 +77,9 @@ std::string tex(const Formula& one) {
     case Kind::function:
       return function_tex(one);
     case Kind::fraction:
-      return "\\frac{" + tex(one.parts[0]) + "}{" + tex(one.parts[1]) + "}";
+      return fmt::format("\\frac{{{}}}{{{}}}", tex(one.parts[0]), tex(one.parts[1]));
     case Kind::power:
-      return "{" + tex(one.parts[0]) + "}^{" + tex(one.parts[1]) + "}";
+      return fmt::format("{{{}}}^{{{}}}", tex(one.parts[0]), tex(one.parts[1]));
     case Kind::root:
       return "\\sqrt{" + row_tex(one.parts) + "}";
     case Kind::fence:

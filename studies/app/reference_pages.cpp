@@ -20,7 +20,7 @@ constexpr int kDeepest = 6;  // of nested tables
 /// In a cell of a table: one line, no bar.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
-    text.insert(at, "\\");
+    text.insert(at, 1, '\\');
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "flexspline/core/stop_operator.hpp"
 
@@ -59,7 +60,7 @@ std::vector<Term> elements(const std::vector<double>& grid, const Term& each) {
   std::vector<Term> terms;
   for (const double value : grid) {
     terms.push_back(each);
-    const std::string number = "_" + std::to_string(terms.size());
+    const std::string number = fmt::format("_{}", terms.size());
     terms.back().name += number, terms.back().grid_name += number;
     terms.back().grid_value = value;
   }

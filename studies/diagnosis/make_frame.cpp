@@ -228,7 +228,7 @@ class FrameMaker {
     }
     f.load_angle = f.motor_angle = f.torsion;
     f.own_zeros = true;
-    f.notes.push_back(
+    f.notes.emplace_back(
         "the zeros of the recordings differ: each, held out or not, is counted from where the "
         "model fits it best, one number a recording");
   }
@@ -262,7 +262,7 @@ class FrameMaker {
         f.motor_inertia * std::sqrt((bent * f.motor_speed.square()).square().mean());
     if (kRippleError * torque < kRippleLimit * f.motor_torque.abs().maxCoeff()) return;
     std::erase(f.equations, Equation::motor);
-    f.notes.push_back(
+    f.notes.emplace_back(
         "the motor equation is not judged: the motor follows a periodic error of the transmission, "
         "and its acceleration is not known well enough from its angle");
   }

@@ -80,7 +80,7 @@ std::string without_numbers(const std::string& text) {
 
 std::string short_text(const ordered_json& value) {
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  return text.size() > 80 ? text.substr(0, 77) + "..." : text;
+  return text.size() > 80 ? fmt::format("{}...", text.substr(0, 77)) : text;
 }
 
 void Walk::note(Difference difference) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/law.hpp"
 #include "flexspline/core/recording.hpp"
@@ -79,7 +81,7 @@ struct Loop {
 /// A sine held from the first sample on.
 inline TorsionRecord measured(const Gear& gear, const Loop& loop) {
   TorsionRecord record;
-  record.id = "a" + std::to_string(loop.amplitude) + "-f" + std::to_string(loop.frequency);
+  record.id = fmt::format("a{:f}-f{:f}", loop.amplitude, loop.frequency);
   record.frequency_hz = loop.frequency * kFrequency;
   const double a = loop.amplitude * kAmplitude;
   const double w = 2.0 * std::numbers::pi * loop.frequency * kFrequency;

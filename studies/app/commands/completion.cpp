@@ -8,14 +8,19 @@ namespace {
 std::string options_of(const CommandRow& row) {
   std::string options = "--json --quiet -v --help";
   for (const ArgumentInfo& argument : row.arguments) {
-    if (argument.name.starts_with('-')) options += " " + std::string(argument.name);
+    if (!argument.name.starts_with('-')) continue;
+    options += ' ';
+    options += argument.name;
   }
   return options;
 }
 
 std::string ids() {
   std::string list;
-  for (const CommandRow& row : commands()) list += (list.empty() ? "" : " ") + std::string(row.id);
+  for (const CommandRow& row : commands()) {
+    if (!list.empty()) list += ' ';
+    list += row.id;
+  }
   return list;
 }
 
