@@ -13,6 +13,41 @@ constexpr double kDifference = 1e-4;    // of a shape's range
 constexpr double kSmallestGain = 1e-7;  // relative fall of the sum of squares that ends the fit
 constexpr double kMostDamping = 1e7;
 
+Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  return gram.selfadjointView<Eigen::Lower>();
+}
+
+Eigen::MatrixXd gram_of(const SeparableBlock& block) {
+  if (block.shared == nullptr) return gram_of(block.columns);
+  const Eigen::Index shared = block.shared->columns.cols();
+  const Eigen::Index own = block.columns.cols();
+  Eigen::MatrixXd gram(shared + own, shared + own);
+  gram.topLeftCorner(shared, shared) = block.shared->gram;
+  gram.bottomLeftCorner(own, shared) = block.columns.transpose() * block.shared->columns;
+  gram.topRightCorner(shared, own) = gram.bottomLeftCorner(own, shared).transpose();
+  gram.bottomRightCorner(own, own) = gram_of(block.columns);
+  return gram;
+}
+
+Eigen::VectorXd times_target(const SeparableBlock& block) {
+  Eigen::VectorXd product(static_cast<Eigen::Index>(block.index.size()));
+  if (block.shared != nullptr) {
+    product.head(block.shared->columns.cols()) = block.shared->columns.transpose() * block.target;
+  }
+  product.tail(block.columns.cols()) = block.columns.transpose() * block.target;
+  return product;
+}
+
+Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
+  Eigen::VectorXd residual = block.target - block.columns * b.tail(block.columns.cols());
+  if (block.shared != nullptr) {
+    residual -= block.shared->columns * b.head(block.shared->columns.cols());
+  }
+  return residual;
+}
+
 // Column scaling keeps the normal equations of splines well conditioned.
 Eigen::VectorXd coefficients(const std::vector<SeparableBlock>& blocks,
                              const Eigen::VectorXd& lower) {
@@ -20,10 +55,8 @@ Eigen::VectorXd coefficients(const std::vector<SeparableBlock>& blocks,
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(k, k);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(k);
   for (const SeparableBlock& block : blocks) {
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(block.columns.cols(), block.columns.cols());
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(block.columns.transpose());
-    normal(block.index, block.index) += Eigen::MatrixXd(gram.selfadjointView<Eigen::Lower>());
-    right(block.index) += block.columns.transpose() * block.target;
+    normal(block.index, block.index) += gram_of(block);
+    right(block.index) += times_target(block);
   }
   const Eigen::VectorXd scale = normal.diagonal().unaryExpr(
       [](double d) { return d > 0.0 && std::isfinite(d) ? 1.0 / std::sqrt(d) : 0.0; });
@@ -107,6 +140,9 @@ bool improve(const SeparableProblem& problem, SeparableFit& fit, double& damping
 
 }  // namespace
 
+SharedColumns::SharedColumns(Eigen::MatrixXd weighted)
+    : columns(std::move(weighted)), gram(gram_of(columns)) {}
+
 SeparableFit solve_linear(const SeparableProblem& problem, std::span<const double> q) {
   SeparableFit fit;
   fit.q.assign(q.begin(), q.end());
@@ -114,7 +150,7 @@ SeparableFit solve_linear(const SeparableProblem& problem, std::span<const doubl
   fit.b = coefficients(blocks, problem.lower);
   for (const SeparableBlock& block : blocks) {
     const Eigen::VectorXd part = fit.b(block.index);
-    fit.residual.emplace_back(block.target - block.columns * part);
+    fit.residual.push_back(residual_of(block, part));
     fit.sum_of_squares += fit.residual.back().squaredNorm();
   }
   fit.evaluations = 1;

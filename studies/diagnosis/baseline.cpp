@@ -98,9 +98,7 @@ BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) 
 }
 
 BaselineColumns travelling_columns(const Frame& frame, std::span<const double> shape) {
-  const double low = frame.torsion.minCoeff();
-  const double high = frame.torsion.maxCoeff();
-  const CubicBasis position(low, high, kTravelIntervals);
+  const CubicBasis position(frame.lowest, frame.highest, kTravelIntervals);
   const Index f = static_cast<Index>(position.size());
   const auto widths = travelling_widths(shape);
   const Index g = static_cast<Index>(widths.size()) + 1;
@@ -174,6 +172,27 @@ ArrayXd target_of(const Frame& frame, Equation equation) {
   if (frame.rig == Rig::servo) return frame.motor_torque;
   return frame.motor_torque - frame.motor_inertia * frame.motor_acceleration -
          frame.torque / frame.ratio;
+}
+
+Frame motion_at(const Frame& frame, const std::vector<Index>& rows) {
+  Frame few;
+  few.rig = frame.rig;
+  few.travels = frame.travels;
+  few.firm_spring = frame.firm_spring;
+  few.torsion_range = frame.torsion_range;
+  few.lowest = frame.lowest;
+  few.highest = frame.highest;
+  few.rate_range = frame.rate_range;
+  few.slow_rate = frame.slow_rate;
+  few.speed_range = frame.speed_range;
+  few.time = frame.time(rows);
+  few.torsion = frame.torsion(rows);
+  few.torsion_rate = frame.torsion_rate(rows);
+  few.motor_speed = frame.motor_speed(rows);
+  few.load_speed = frame.load_speed(rows);
+  few.load_acceleration = frame.load_acceleration(rows);
+  if (frame.rig == Rig::servo) few.gravity = frame.gravity(rows);
+  return few;
 }
 
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,

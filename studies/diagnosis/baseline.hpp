@@ -24,6 +24,10 @@ Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape);
 
+/// What baseline_columns() looks at, of some rows alone. Not for a torque behind a filter, which
+/// takes every row.
+Frame motion_at(const Frame& frame, const std::vector<Eigen::Index>& rows);
+
 /// Widths of the tanh that the motor's dry friction is a mixture of, in the order of its columns,
 /// rad/s.
 std::vector<double> dry_widths(const Frame& frame);

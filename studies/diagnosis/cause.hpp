@@ -76,10 +76,14 @@ struct CauseRow {
   std::string_view id;
   std::string_view coordinate;
   std::vector<CauseForm> forms;
+  bool of_baseline = false;  ///< a part of the baseline where recordings ask for it, never a name
 };
 
 /// Every cause, one file each in studies/diagnosis/causes.
 std::span<const CauseRow> causes();
+
+/// What the baseline has where recordings ask for it: a spring that differs between its sides.
+std::span<const CauseRow> baseline_parts();
 
 /// The first equation of the frame that a form acts on.
 Equation first_equation(const Frame& frame, const CauseForm& form);

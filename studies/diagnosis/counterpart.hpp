@@ -35,6 +35,7 @@ struct Counterpart {
   double load_inertia = 0.0;
   double law_factor = 1.0;       ///< on f and g^-1, which had taken a gain up
   double side_difference = 0.0;  ///< g^-1 is 1 + this forward and 1 - this backward
+  double spring_difference = 0.0;  ///< f is 1 + this on its positive side and 1 - this on the other
   /// Of the torsion, where f alone sees less of it.
   std::function<double(double)> spring_sees = {};
   std::string caveat = {};  ///< in what the model differs from what was fitted

@@ -53,7 +53,9 @@ std::vector<std::string> remarks_on(const Selection& s) {
   std::vector<std::string> remarks;
   for (const Accepted& small : s.immaterial) {
     remarks.push_back(
-        fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
+        small.trial.cause.row->of_baseline
+            ? ""
+            : fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
   }
   return remarks;
 }
@@ -142,6 +144,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   d.mistaken = std::move(mistaken);
   d.notes = all.notes;
   d.notes.insert(d.notes.end(), frame.notes.begin(), frame.notes.end());
+  for (std::string& part : spelled_parts(selection)) d.notes.push_back(std::move(part));
   if (const auto lag = velocity_lag(frame)) d.notes.push_back(in_words(*lag));
   d.baseline_model = baseline_in_words(frame);
   d.baseline_rmse_train = proof.rmse_train_before;

@@ -43,6 +43,8 @@ ArrayXd Frame::filtered(const ArrayXd& signal, double time_constant) const {
 
 void Frame::measure_torsion() {
   torsion_range = (torsion.abs() * usable).maxCoeff();
+  lowest = torsion.minCoeff();
+  highest = torsion.maxCoeff();
   rate_range = (torsion_rate.abs() * usable).maxCoeff();
   std::vector<double> rates;
   for (Index i = 0; i < rows(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct Incident {
   double size = 0.0;  ///< rms of what the laws leave there, over the largest torque
 };
 
+class KeptBaselines;
+
 /// All recordings of a set on one list of rows, motions smoothed. SI; motor quantities at the motor
 /// shaft, others at the output. A channel that the rig does not have is zero; on a specimen the
 /// imposed motion is motor, load and torsion at once, with ratio 1 unless stated.
@@ -47,6 +50,7 @@ struct Frame {
   Quantity drives = Quantity::motor_torque;
   bool travels = false;      ///< an angle that travels: f is a free function of it
   bool own_zeros = false;    ///< every recording has a zero of its own
+  double zero = 0.0;         ///< torsion as recorded from which that of all of them is counted
   bool firm_spring = false;  ///< f is nowhere much softer than in the mean
   double torque_lag = 0.0;   ///< time constant of the filter behind which the torque is recorded, s
   std::vector<Equation> equations;
@@ -68,6 +72,8 @@ struct Frame {
   Eigen::ArrayXd usable;  ///< 1, or 0 where the bench spoiled the sample or smoothing has no hold
 
   double torsion_range = 0.0;  ///< largest |torsion|
+  double lowest = 0.0;         ///< torsion, of all rows
+  double highest = 0.0;        ///< the same
   double rate_range = 0.0;     ///< largest |torsion rate|
   double slow_rate = 0.0;      ///< tenth percentile of |torsion rate|
   double speed_range = 0.0;    ///< largest |motor speed|
@@ -75,6 +81,9 @@ struct Frame {
   double duration = 0.0;       ///< longest recording
   double interval = 0.0;       ///< median time between rows
   double session = 0.0;        ///< of the clock
+
+  /// Columns that were built, for this frame and its copies; none: they are built each time.
+  std::shared_ptr<KeptBaselines> kept;
 
   Eigen::Index rows() const { return time.size(); }
   bool has(Equation equation) const;

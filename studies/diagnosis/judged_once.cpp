@@ -35,6 +35,11 @@ struct Joint {
 
 // Where the search moved a recording's zero, it stays moved.
 void take_zeros(const Frame& from, Frame& to) {
+  if (to.zero != from.zero) {
+    to.torsion += to.zero - from.zero;
+    to.zero = from.zero;
+    if (to.rig == Rig::specimen) to.load_angle = to.motor_angle = to.torsion;
+  }
   for (const Segment& s : to.segments) {
     const Segment* known = segment_of(from, s.id);
     if (known == nullptr || !from.own_zeros) continue;
@@ -81,6 +86,7 @@ Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Finding
     const std::size_t e = index_of(equation);
     findings.noise[e].level = levels_on(frame, searched, findings.noise[e].level);
     findings.weight[e] = weights_of(frame, findings.noise[e].level);
+    findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     findings.reference = reference_of(frame, findings.fit.model);

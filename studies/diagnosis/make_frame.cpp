@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/middle.hpp"
+#include "diagnosis/model_columns.hpp"
 #include "diagnosis/periodic_angle.hpp"
 #include "flexspline/core/estimate.hpp"
 
@@ -19,6 +20,7 @@ using Series = std::vector<double>;
 constexpr double kRippleError = 0.02;   // of the acceleration that follows from a periodic angle
 constexpr double kRippleLimit = 0.002;  // that error's torque over the largest motor torque
 constexpr double kSameZero = 0.2;       // zeros that differ by less, over the widest motion
+constexpr double kFarZero = 0.1;        // of half the motion: a fit finds what is nearer
 constexpr double kSticking = 0.02;      // of the largest speed
 constexpr double kGravity = 9.80665;    // m/s2
 constexpr double kForgotten = 5.0;      // time constants, after which 0.7 % of a start are left
@@ -88,6 +90,7 @@ class FrameMaker {
   FrameMaker(const RecordingSet& set, const PeriodicAngle& periodic, Index rows)
       : set_(set), periodic_(periodic) {
     frame_.rig = set.rig;
+    frame_.kept = no_baselines_yet();
     frame_.ratio = constant(set, "gear_ratio", 1.0);
     frame_.motor_inertia = constant(set, "motor_inertia_kgm2", 0.0);
     frame_.load_inertia = constant(set, "load_inertia_kgm2", 0.0);
@@ -132,6 +135,7 @@ class FrameMaker {
   Frame finish() {
     complete_motion();
     centre_recordings();
+    centre_together();
     measure_ranges();
     leave_out_sticking();
     leave_out_starts();
@@ -196,6 +200,29 @@ class FrameMaker {
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;
     f.torsion_acceleration = f.motor_acceleration / f.ratio - f.load_acceleration;
   }
+
+  // Where the zero of all lies too far out for a fit to start from none.
+  void centre_together() {
+    Frame& f = frame_;
+    if (f.travels || f.own_zeros || f.rig == Rig::servo || !has_torque()) return;
+    Series zeros;
+    for (const Segment& s : f.segments) {
+      if (const double zero = unloaded_at(s); zero != 0.0) zeros.push_back(zero);
+    }
+    if (zeros.empty()) return;
+    const double zero = middle(zeros);
+    const double reach = 0.5 * (f.torsion.maxCoeff() - f.torsion.minCoeff());
+    if (std::abs(zero) < kFarZero * reach) return;
+    f.torsion -= zero;
+    if (f.rig == Rig::specimen) f.load_angle = f.motor_angle = f.torsion;
+    f.zero = zero;
+    f.notes.push_back(fmt::format(
+        "the zero of the torsion is off by {:.0f} % of half its range: it is counted from where the "
+        "torque changes its sign",
+        100.0 * std::abs(zero) / reach));
+  }
+
+  bool has_torque() const { return frame_.torque.abs().maxCoeff() > 0.0; }
 
   // Mean torsion where the torque changes its sign; 0 where it does so less than four times.
   double unloaded_at(const Segment& s) const {

@@ -104,18 +104,20 @@ struct LinearLayout {
 };
 
 LinearLayout linear_layout(ModelColumns& columns, const DriveModel& model,
-                           const std::vector<Equation>& equations) {
+                           const std::vector<Equation>& equations,
+                           const std::vector<WeightedRows>& rows) {
   LinearLayout layout;
   std::vector<double> lower;
   layout.cause_size.assign(model.causes.size(), 0);
-  for (Equation equation : equations) {
-    const auto c = columns.at(model, equation);
+  for (std::size_t e = 0; e < equations.size(); ++e) {
+    const auto own = weighted_baseline(columns.seen(model), equations[e],
+                                       baseline_shape(model, equations[e]), rows[e]);
     layout.own_at.push_back(static_cast<Index>(lower.size()));
-    layout.own_size.push_back(c.own->lower.size());
-    lower.insert(lower.end(), c.own->lower.begin(), c.own->lower.end());
-    for (std::size_t k = 0; k < c.causes.size(); ++k) {
-      layout.cause_size[k] =
-          std::max(layout.cause_size[k], static_cast<Index>(c.causes[k]->size()));
+    layout.own_size.push_back(own->lower.size());
+    lower.insert(lower.end(), own->lower.begin(), own->lower.end());
+    const auto causes = columns.causes_at(model, equations[e]);
+    for (std::size_t k = 0; k < causes.size(); ++k) {
+      layout.cause_size[k] = std::max(layout.cause_size[k], static_cast<Index>(causes[k]->size()));
     }
   }
   for (std::size_t k = 0; k < model.causes.size(); ++k) {
@@ -127,33 +129,28 @@ LinearLayout linear_layout(ModelColumns& columns, const DriveModel& model,
   return layout;
 }
 
-SeparableBlock weighted_block(const EquationColumns& c, const ArrayXd& target,
-                              const ArrayXd& weight, const LinearLayout& layout, std::size_t e) {
-  std::vector<Index> rows;
-  for (Index r = 0; r < weight.size(); ++r) {
-    if (weight[r] > 0.0) rows.push_back(r);
-  }
+SeparableBlock weighted_block(ModelColumns& columns, const DriveModel& model, Equation equation,
+                              const WeightedRows& rows, const LinearLayout& layout, std::size_t e) {
   SeparableBlock block;
+  block.shared = weighted_baseline(columns.seen(model), equation, baseline_shape(model, equation),
+                                   rows)
+                     ->columns;
   for (Index k = 0; k < layout.own_size[e]; ++k) block.index.push_back(layout.own_at[e] + k);
-  Index width = layout.own_size[e];
-  for (std::size_t k = 0; k < c.causes.size(); ++k) {
-    for (std::size_t j = 0; j < c.causes[k]->size(); ++j) {
+  const auto causes = columns.causes_at(model, equation);
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
       block.index.push_back(layout.cause_at[k] + static_cast<Index>(j));
-      ++width;
     }
   }
-  const Eigen::VectorXd w = weight(rows);
-  block.columns.resize(static_cast<Index>(rows.size()), width);
-  for (Index k = 0; k < layout.own_size[e]; ++k) {
-    block.columns.col(k) = c.own->columns.col(k)(rows).cwiseProduct(w);
-  }
-  Index next = layout.own_size[e];
-  for (const auto& list : c.causes) {
+  block.columns.resize(rows.weight.size(),
+                       static_cast<Index>(block.index.size()) - layout.own_size[e]);
+  Index next = 0;
+  for (const auto& list : causes) {
     for (const ArrayXd& column : *list) {
-      block.columns.col(next++) = Eigen::VectorXd(column(rows)).cwiseProduct(w);
+      block.columns.col(next++) = (column(rows.at) * rows.weight).matrix();
     }
   }
-  block.target = Eigen::VectorXd(target(rows)).cwiseProduct(w);
+  block.target = (target_of(columns.seen(model), equation)(rows.at) * rows.weight).matrix();
   return block;
 }
 
@@ -226,8 +223,11 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
                            const std::vector<Equation>& equations, const DriveModel& start,
                            const Reference& reference, int most_steps) {
   const Layout layout(frame, equations, start);
+  std::vector<WeightedRows> rows;
+  for (Equation equation : equations) rows.emplace_back(weight[index_of(equation)]);
   ModelColumns columns(frame, reference);
-  const LinearLayout linear = linear_layout(columns, layout.at(layout.shapes_start()), equations);
+  const LinearLayout linear =
+      linear_layout(columns, layout.at(layout.shapes_start()), equations, rows);
   estimators::SeparableProblem problem;
   problem.lower = linear.lower;
   problem.shapes = layout.bounds();
@@ -235,9 +235,7 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
     const DriveModel model = layout.at(q);
     std::vector<SeparableBlock> blocks;
     for (std::size_t e = 0; e < equations.size(); ++e) {
-      blocks.push_back(weighted_block(columns.at(model, equations[e]),
-                                      target_of(columns.seen(model), equations[e]),
-                                      weight[index_of(equations[e])], linear, e));
+      blocks.push_back(weighted_block(columns, model, equations[e], rows[e], linear, e));
     }
     return blocks;
   };

@@ -9,11 +9,6 @@ using Eigen::ArrayXd;
 
 constexpr std::size_t kMostBuilt = 12;  // of a fit: a few causes, before and after a difference
 
-std::span<const double> shape_of(const DriveModel& model, Equation equation) {
-  if (equation == Equation::torsion) return model.torsion_shape;
-  return {};
-}
-
 bool acts_on(const ActiveCause& cause, Equation equation) {
   return std::ranges::count(cause.form->at, equation) > 0;
 }
@@ -27,6 +22,11 @@ std::vector<std::vector<double>> changes_of(const DriveModel& model) {
 }
 
 }  // namespace
+
+std::span<const double> baseline_shape(const DriveModel& model, Equation equation) {
+  if (equation == Equation::torsion) return model.torsion_shape;
+  return {};
+}
 
 const Frame& ModelColumns::seen(const DriveModel& model) {
   auto changes = changes_of(model);
@@ -59,15 +59,21 @@ std::shared_ptr<const Columns> ModelColumns::columns_of(const Frame& seen, const
   return built_.front().columns;
 }
 
-EquationColumns ModelColumns::at(const DriveModel& model, Equation equation) {
+std::vector<std::shared_ptr<const Columns>> ModelColumns::causes_at(const DriveModel& model,
+                                                                    Equation equation) {
   static const auto none = std::make_shared<const Columns>();
   const Frame& frame = seen(model);
-  EquationColumns c{shared_baseline(frame, equation, shape_of(model, equation)), {}};
+  std::vector<std::shared_ptr<const Columns>> list;
   for (const ActiveCause& cause : model.causes) {
     const bool adds = cause.form->columns != nullptr && acts_on(cause, equation);
-    c.causes.push_back(adds ? columns_of(frame, cause, equation) : none);
+    list.push_back(adds ? columns_of(frame, cause, equation) : none);
   }
-  return c;
+  return list;
+}
+
+EquationColumns ModelColumns::at(const DriveModel& model, Equation equation) {
+  return {shared_baseline(seen(model), equation, baseline_shape(model, equation)),
+          causes_at(model, equation)};
 }
 
 }  // namespace flexspline::studies

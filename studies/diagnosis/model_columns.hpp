@@ -6,6 +6,7 @@
 
 #include "diagnosis/baseline.hpp"
 #include "diagnosis/model.hpp"
+#include "flexspline/estimators/separable.hpp"
 
 namespace flexspline::studies {
 
@@ -26,6 +27,8 @@ class ModelColumns {
   /// The frame as the causes of the model that change it leave it; valid until the next call.
   const Frame& seen(const DriveModel& model);
   EquationColumns at(const DriveModel& model, Equation equation);
+  /// Of each cause alone.
+  std::vector<std::shared_ptr<const Columns>> causes_at(const DriveModel& model, Equation equation);
 
  private:
   struct Built {
@@ -44,8 +47,34 @@ class ModelColumns {
   std::list<Built> built_;                       ///< on the frame seen last; the latest first
 };
 
-/// baseline_columns(), kept for the next who asks for the same motion and shape.
+/// Shapes of the baseline in one equation.
+std::span<const double> baseline_shape(const DriveModel& model, Equation equation);
+
+/// What shared_baseline() keeps.
+std::shared_ptr<KeptBaselines> no_baselines_yet();
+
+/// baseline_columns(), kept with the frame for the next who asks for the same motion and shape.
+/// Thread-safe.
 std::shared_ptr<const BaselineColumns> shared_baseline(const Frame& frame, Equation equation,
                                                        std::span<const double> shape);
+
+/// Columns of the baseline's linear parameters on rows with a weight, weighted, and their bounds.
+struct WeightedBaseline {
+  Eigen::VectorXd lower;
+  std::shared_ptr<const estimators::SharedColumns> columns;
+};
+
+/// The rows of one equation that a fit looks at.
+struct WeightedRows {
+  explicit WeightedRows(const Eigen::ArrayXd& all);
+
+  std::vector<Eigen::Index> at;  ///< those with a weight
+  Eigen::ArrayXd weight;         ///< theirs
+};
+
+/// The baseline's columns on some rows, kept like shared_baseline(). Thread-safe.
+std::shared_ptr<const WeightedBaseline> weighted_baseline(const Frame& frame, Equation equation,
+                                                          std::span<const double> shape,
+                                                          const WeightedRows& rows);
 
 }  // namespace flexspline::studies

@@ -6,6 +6,7 @@
 
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/form_error.hpp"
+#include "flexspline/core/in_parallel.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -73,14 +74,16 @@ struct Worth {
   std::vector<double> loss;       ///< rise of the chi square
 };
 
-Result<Worth> worth_of_each(const Frame& frame, Selection& s) {
+Result<Worth> worth_of_each(const Frame& frame, Selection& s, unsigned threads) {
+  std::vector<Result<ModelFit>> fits(s.accepted.size());
+  in_parallel(fits.size(), threads_for(threads),
+              [&](std::size_t i) { fits[i] = reduced(frame, s.final, i, kRefreshSteps); });
   Worth worth;
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    auto fit = reduced(frame, s.final, i, kRefreshSteps);
-    if (!fit) return tl::unexpected(fit.error());
-    worth.loss.push_back(chi_square_rise(frame, s.final, *fit));
+    if (!fits[i]) return tl::unexpected(fits[i].error());
+    worth.loss.push_back(chi_square_rise(frame, s.final, *fits[i]));
     s.accepted[i].trial.gain = worth.loss.back();
-    worth.without.push_back(std::move(*fit));
+    worth.without.push_back(std::move(*fits[i]));
   }
   return worth;
 }
@@ -138,6 +141,7 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
   }
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
   for (std::size_t i : order) {
+    if (s.accepted[i].trial.cause.row->of_baseline) continue;
     const auto large = shadow_on(frame, s, i, worth.loss, limits);
     if (!large) continue;
     const bool may_stay = complete && !usurps(s.accepted[i], s.accepted[*large]);
@@ -152,7 +156,7 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
 Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selection& s) {
   std::size_t chances = s.accepted.size();
   while (s.accepted.size() > 1) {
-    auto worth = worth_of_each(frame, s);
+    auto worth = worth_of_each(frame, s, limits.threads);
     if (!worth) return tl::unexpected(worth.error());
     if (chances > 0 && fitted_better(frame, limits, s, *worth)) {
       --chances;

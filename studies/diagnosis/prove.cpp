@@ -6,6 +6,7 @@
 
 #include "diagnosis/folds.hpp"
 #include "diagnosis/held_out_error.hpp"
+#include "flexspline/core/in_parallel.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -27,18 +28,12 @@ std::optional<std::size_t> unconfirmed(const Proof& proof, double most) {
 
 /// Findings whose weights leave the held-out rows out of the fit.
 Findings on_training(Findings findings, const ArrayXd& out) {
-  for (ArrayXd& weight : findings.weight) {
-    if (weight.size() == out.size()) weight *= 1.0 - out;
+  for (PerEquation* weights : {&findings.weight, &findings.fit_weight}) {
+    for (ArrayXd& weight : *weights) {
+      if (weight.size() == out.size()) weight *= 1.0 - out;
+    }
   }
   return findings;
-}
-
-// The model's causes taken over, all parameters fitted to the training rows.
-Result<ModelFit> refitted(const Frame& frame, const Findings& training) {
-  Findings copy = training;
-  const auto done = fit_all(frame, copy, kSteps);
-  if (!done) return tl::unexpected(done.error());
-  return copy.fit;
 }
 
 /// Residuals of the models compared, every held-out row by the fit that did not see it; 0
@@ -70,52 +65,82 @@ HeldOut nothing_yet(const Frame& frame, const Selection& s) {
           s.final.fit.prediction[e]};
 }
 
-Result<void> take_causes(const Frame& frame, const Selection& s, const Findings& final,
-                         const ArrayXd& rows, HeldOut& pool) {
-  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    const std::size_t e = index_of(first_equation(frame, *s.accepted[i].trial.cause.form));
-    const auto without = reduced(frame, final, s.immaterial.size() + i, kSteps);
-    if (!without) return tl::unexpected(without.error());
-    pool.without[i] += without->residual[e] * rows;
+/// The models fitted to the rows that a fold leaves.
+struct FoldFits {
+  Findings base, final;
+  std::vector<ModelFit> without;    ///< of the final model less each cause
+  std::optional<ModelFit> placebo;  ///< the best of the causes that were tried and are not there
+};
+
+Findings on_weights_of(Findings findings, const Findings& other) {
+  findings.weight = other.weight;
+  findings.fit_weight = other.fit_weight;
+  findings.noise = other.noise;
+  return findings;
+}
+
+Result<void> fit_both(const Frame& frame, const Selection& s, const ArrayXd& out, FoldFits& fold) {
+  fold.base = on_training(on_weights_of(s.baseline, s.final), out);
+  fold.final = on_training(s.final, out);
+  for (Findings* one : {&fold.base, &fold.final}) {
+    const auto done = fit_all(frame, *one, kSteps);
+    if (!done) return done;
   }
   return {};
 }
 
-// The best of the causes that were tried and are not there.
-Result<void> take_placebo(const Frame& frame, const Selection& s, Findings base,
-                          const ArrayXd& rows, HeldOut& pool) {
+Result<void> fit_placebo(const Frame& frame, const Selection& s, FoldFits& fold) {
   if (s.accepted.empty() || s.accepted.front().field.empty()) return {};
-  base.fit = s.accepted.front().field.front().fit;
-  const auto fit = refitted(frame, base);
-  if (!fit) return tl::unexpected(fit.error());
-  take(pool.placebo, fit->residual, rows);
-  return {};
+  Findings instead = fold.base;
+  instead.fit = s.accepted.front().field.front().fit;
+  const auto done = fit_all(frame, instead, kSteps);
+  if (done) fold.placebo = std::move(instead.fit);
+  return done;
 }
 
-Result<void> take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, HeldOut& pool) {
-  Findings base = on_training(s.baseline, out);
-  base.weight = on_training(s.final, out).weight;
-  base.noise = s.final.noise;
-  auto base_fit = refitted(frame, base);
-  if (!base_fit) return tl::unexpected(base_fit.error());
-  base.fit = std::move(*base_fit);
-  Findings final = on_training(s.final, out);
-  auto final_fit = refitted(frame, final);
-  if (!final_fit) return tl::unexpected(final_fit.error());
-  final.fit = std::move(*final_fit);
+// What stands in the place of the causes: the model without each, and the placebo.
+Result<void> fit_without(const Frame& frame, const Selection& s, FoldFits& fold) {
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    auto fit = reduced(frame, fold.final, s.immaterial.size() + i, kSteps);
+    if (!fit) return tl::unexpected(fit.error());
+    fold.without.push_back(std::move(*fit));
+  }
+  return fit_placebo(frame, s, fold);
+}
+
+Result<std::vector<FoldFits>> fit_folds(const Frame& frame, const Selection& s,
+                                        const std::vector<ArrayXd>& folds, unsigned threads) {
+  std::vector<FoldFits> fits(folds.size());
+  std::vector<Result<void>> done(folds.size());
+  in_parallel(folds.size(), threads, [&](std::size_t i) {
+    done[i] = fit_both(frame, s, folds[i], fits[i]);
+    if (done[i]) done[i] = fit_without(frame, s, fits[i]);
+  });
+  for (const auto& one : done) {
+    if (!one) return tl::unexpected(one.error());
+  }
+  return fits;
+}
+
+void take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, const FoldFits& fold,
+               HeldOut& pool) {
   const ArrayXd held = out * frame.usable;
   const ArrayXd train = (1.0 - out) * frame.usable;
+  const ModelFit& base = fold.base.fit;
+  const ModelFit& final = fold.final.fit;
   const std::size_t e = index_of(equation_to_prove(frame, s));
-  pool.before = (out > 0.0).select(base.fit.prediction[e], pool.before);
-  pool.after = (out > 0.0).select(final.fit.prediction[e], pool.after);
-  take(pool.base, base.fit.residual, held);
-  take(pool.final, final.fit.residual, held);
-  pool.train_before += (base.fit.residual[e].square() * train).sum();
-  pool.train_after += (final.fit.residual[e].square() * train).sum();
+  pool.before = (out > 0.0).select(base.prediction[e], pool.before);
+  pool.after = (out > 0.0).select(final.prediction[e], pool.after);
+  take(pool.base, base.residual, held);
+  take(pool.final, final.residual, held);
+  if (fold.placebo) take(pool.placebo, fold.placebo->residual, held);
+  for (std::size_t i = 0; i < fold.without.size(); ++i) {
+    const std::size_t at = index_of(first_equation(frame, *s.accepted[i].trial.cause.form));
+    pool.without[i] += fold.without[i].residual[at] * held;
+  }
+  pool.train_before += (base.residual[e].square() * train).sum();
+  pool.train_after += (final.residual[e].square() * train).sum();
   pool.train_rows += train.sum();
-  const auto causes = take_causes(frame, s, final, held, pool);
-  if (!causes) return causes;
-  return take_placebo(frame, s, base, held, pool);
 }
 
 void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
@@ -160,7 +185,7 @@ Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Lim
   if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
     return std::nullopt;
   }
-  const auto proof = prove(frame, *other);
+  const auto proof = prove(frame, *other, limits.threads);
   if (!proof) return tl::unexpected(proof.error());
   if (!(proof->cause_ratio.back() < most_of(limits, *other))) return std::nullopt;
   return std::move(*other);
@@ -182,12 +207,12 @@ Equation equation_to_prove(const Frame& frame, const Selection& selection) {
   return first;
 }
 
-Result<Proof> prove(const Frame& frame, const Selection& s) {
+Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
+  const auto folds = folds_of(frame);
+  const auto fits = fit_folds(frame, s, folds, threads);
+  if (!fits) return tl::unexpected(fits.error());
   HeldOut pool = nothing_yet(frame, s);
-  for (const ArrayXd& fold : folds_of(frame)) {
-    const auto taken = take_fold(frame, s, fold, pool);
-    if (!taken) return tl::unexpected(taken.error());
-  }
+  for (std::size_t i = 0; i < folds.size(); ++i) take_fold(frame, s, folds[i], (*fits)[i], pool);
   const std::size_t e = index_of(equation_to_prove(frame, s));
   const ArrayXd held = held_out(frame) * frame.usable;
   Proof proof;
@@ -213,7 +238,7 @@ Result<Proof> prove(const Frame& frame, const Selection& s) {
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
-    auto proof = prove(frame, s);
+    auto proof = prove(frame, s, limits.threads);
     if (!proof) return proof;
     const auto worst = unconfirmed(*proof, most_of(limits, s));
     if (!worst) return proof;

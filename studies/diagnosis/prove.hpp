@@ -23,7 +23,8 @@ struct Proof {
   Eigen::ArrayXd before;
   Eigen::ArrayXd after;
 };
-Result<Proof> prove(const Frame& frame, const Selection& selection);
+/// The same for any number of threads; 0: as many as the machine has.
+Result<Proof> prove(const Frame& frame, const Selection& selection, unsigned threads);
 
 /// The same, with the causes withdrawn that do not lower the error on recordings held out; the
 /// worst first, each time proved anew.

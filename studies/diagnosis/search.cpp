@@ -88,7 +88,7 @@ ModelFit merged(ModelFit whole, const ModelFit& fit, const Part& part,
 Result<ModelFit> fit_part(const Frame& frame, const Findings& findings, const ModelFit& whole,
                           const std::vector<Equation>& equations, int steps) {
   const Part part = part_of(whole.model, equations);
-  auto fit = fit_model(frame, findings.weight, equations, part.model, findings.reference, steps);
+  auto fit = fit_model(frame, findings.fit_weight, equations, part.model, findings.reference, steps);
   if (!fit) return fit;
   return merged(whole, *fit, part, equations);
 }
@@ -237,11 +237,13 @@ std::size_t searchers(unsigned wanted) {
 
 std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings, unsigned threads) {
   std::vector<FirstLook> looks;
-  for (const CauseRow& row : causes()) {
-    const bool present = std::ranges::any_of(findings.fit.model.causes,
-                                             [&](const ActiveCause& c) { return c.row == &row; });
-    if (present) continue;
-    for (const CauseForm* form : forms_on(row, frame)) looks.push_back({&row, form, {}, -1.0, 0});
+  for (const auto rows : {causes(), baseline_parts()}) {
+    for (const CauseRow& row : rows) {
+      const bool present = std::ranges::any_of(findings.fit.model.causes,
+                                               [&](const ActiveCause& c) { return c.row == &row; });
+      if (present) continue;
+      for (const CauseForm* form : forms_on(row, frame)) looks.push_back({&row, form, {}, -1.0, 0});
+    }
   }
   in_parallel(looks.size(), searchers(threads), [&](std::size_t i) {
     looks[i] = first_look(frame, findings, *looks[i].row, *looks[i].form);
@@ -265,7 +267,10 @@ void measure_noise(const Frame& frame, Findings& findings) {
     const std::size_t e = index_of(equation);
     findings.noise[e].level = noise_levels(frame, findings.fit.residual[e]);
     findings.noise[e].colour = noise_colour(frame, findings.fit.residual[e]);
+    findings.noise[e].alike = rows_alike(frame, findings.fit.residual[e]);
     findings.weight[e] = weights_of(frame, findings.noise[e].level);
+    findings.fit_weight[e] =
+        weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
   }
   findings.reference = reference_of(frame, findings.fit.model);
 }
@@ -313,7 +318,7 @@ Result<Findings> fit_baseline(const Frame& frame) {
   findings.fit.model = first_guess(frame);
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    findings.weight[e] = frame.usable;
+    findings.weight[e] = findings.fit_weight[e] = frame.usable;
   }
   findings.reference = reference_of(frame, findings.fit.model);
   for (Equation equation : frame.equations) {

@@ -13,7 +13,8 @@ struct Findings {
   ModelFit fit;
   Reference reference;
   std::array<EquationNoise, 3> noise;
-  PerEquation weight;
+  PerEquation weight;      ///< of every usable row
+  PerEquation fit_weight;  ///< of those that a fit looks at
 
   /// Weighted sum of squares over the noise's colour: a chi square where only noise is left.
   double chi_square(Equation equation) const {
@@ -51,8 +52,8 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
 Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause,
                          int steps);
 
-/// Every cause that is not yet in the model, best net gain first; one entry a cause. The same for
-/// any number of threads; 0: as many as the machine has.
+/// Every cause and part of the baseline that is not yet in the model, best net gain first; one entry
+/// each. The same for any number of threads; 0: as many as the machine has.
 std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads = 0);
 
 /// Misfit beyond noise, in chi square, summed over the equations.

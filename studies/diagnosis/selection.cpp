@@ -21,7 +21,8 @@ bool admissible(const Trial& trial, const Limits& limits) {
 Accepted accepted_as(Trial trial, const Limits& limits) {
   Accepted accepted;
   accepted.first_gain = trial.gain;
-  accepted.material = trial.size >= limits.size && trial.net_gain >= limits.named_gain;
+  accepted.material = !trial.cause.row->of_baseline && trial.size >= limits.size &&
+                      trial.net_gain >= limits.named_gain;
   accepted.trial = std::move(trial);
   return accepted;
 }
@@ -29,7 +30,7 @@ Accepted accepted_as(Trial trial, const Limits& limits) {
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
   Accepted accepted = accepted_as(std::move(trials[best]), limits);
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (i == best || trials[i].cause.row == nullptr) continue;
+    if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline) continue;
     const bool alike =
         trials[i].gain > limits.alike * accepted.trial.gain && admissible(trials[i], limits);
     (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));

@@ -62,7 +62,7 @@ struct Accepted {
 struct Selection {
   Findings baseline;                 ///< with the immaterial causes, which come first in its model
   Findings final;                    ///< with the accepted causes behind them, or the baseline
-  std::vector<Accepted> immaterial;  ///< significant, but too small to be named
+  std::vector<Accepted> immaterial;  ///< significant, but too small to be named, or of the baseline
   std::vector<Accepted> accepted;
   std::vector<Trial> last_field;        ///< of the round in which none was accepted
   std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <list>
@@ -10,7 +11,8 @@ namespace {
 
 using Eigen::ArrayXd;
 
-constexpr std::size_t kMostKept = 16;  // a few megabytes each
+constexpr double kSeen = 0.01;  // of a spline's height: rows that see less say nothing of it
+constexpr std::size_t kMostKept = 16;  // a megabyte or two each
 
 /// What columns depend on, as a sum of 128 bits: two sums by different multipliers.
 class Sum {
@@ -41,7 +43,8 @@ Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape)
           (frame.firm_spring ? 32.0 : 0.0));
   sum.add(static_cast<double>(frame.rig));
   for (const double value : {frame.torsion_range, frame.rate_range, frame.slow_rate,
-                             frame.speed_range, frame.torque_lag}) {
+                             frame.speed_range, frame.torque_lag, frame.lowest,
+                             frame.highest}) {
     sum.add(value);
   }
   for (const double value : shape) sum.add(value);
@@ -54,31 +57,92 @@ Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape)
   return sum;
 }
 
-struct Kept {
-  Sum sum;
-  std::shared_ptr<const BaselineColumns> columns;
+/// The latest of some kind of columns.
+template <typename T>
+class Recent {
+ public:
+  template <typename Build>
+  std::shared_ptr<const T> get(const Sum& sum, const Build& build) {
+    if (auto known = find(sum)) return known;
+    auto columns = std::make_shared<const T>(build());
+    const std::scoped_lock lock(mutex_);
+    kept_.push_front({sum, columns});
+    if (kept_.size() > kMostKept) kept_.pop_back();
+    return columns;
+  }
+
+ private:
+  struct Kept {
+    Sum sum;
+    std::shared_ptr<const T> columns;
+  };
+
+  std::shared_ptr<const T> find(const Sum& sum) {
+    const std::scoped_lock lock(mutex_);
+    const auto one = std::ranges::find(kept_, sum, &Kept::sum);
+    if (one == kept_.end()) return nullptr;
+    kept_.splice(kept_.begin(), kept_, one);
+    return one->columns;
+  }
+
+  std::mutex mutex_;
+  std::list<Kept> kept_;  // the latest first
 };
+
+// What the rows hardly see would be fitted to their noise, and be anything on others.
+void leave_unseen(BaselineColumns& torsion) {
+  for (auto spline : torsion.columns.leftCols(torsion.elastic + torsion.dissipative).colwise()) {
+    if (spline.cwiseAbs().maxCoeff() < kSeen) spline.setZero();
+  }
+}
+
+WeightedBaseline weighted(const Frame& frame, Equation equation, std::span<const double> shape,
+                          const WeightedRows& rows) {
+  if (frame.torque_lag > 0.0) {
+    const auto all = shared_baseline(frame, equation, shape);
+    return {all->lower, std::make_shared<const estimators::SharedColumns>(
+                            (all->columns(rows.at, Eigen::all).array().colwise() * rows.weight))};
+  }
+  BaselineColumns some = baseline_columns(motion_at(frame, rows.at), equation, shape);
+  if (equation == Equation::torsion) leave_unseen(some);
+  some.columns.array().colwise() *= rows.weight;
+  return {std::move(some.lower),
+          std::make_shared<const estimators::SharedColumns>(std::move(some.columns))};
+}
 
 }  // namespace
 
+class KeptBaselines {
+ public:
+  Recent<BaselineColumns> plain;
+  Recent<WeightedBaseline> weighted;
+};
+
+std::shared_ptr<KeptBaselines> no_baselines_yet() { return std::make_shared<KeptBaselines>(); }
+
+WeightedRows::WeightedRows(const ArrayXd& all) {
+  for (Eigen::Index r = 0; r < all.size(); ++r) {
+    if (all[r] > 0.0) at.push_back(r);
+  }
+  weight = all(at);
+}
+
 std::shared_ptr<const BaselineColumns> shared_baseline(const Frame& frame, Equation equation,
                                                        std::span<const double> shape) {
-  static std::mutex mutex;
-  static std::list<Kept> kept;  // the latest first
-  const Sum sum = sum_of(frame, equation, shape);
-  {
-    const std::scoped_lock lock(mutex);
-    for (auto one = kept.begin(); one != kept.end(); ++one) {
-      if (one->sum != sum) continue;
-      kept.splice(kept.begin(), kept, one);
-      return kept.front().columns;
-    }
-  }
-  auto columns = std::make_shared<const BaselineColumns>(baseline_columns(frame, equation, shape));
-  const std::scoped_lock lock(mutex);
-  kept.push_front({sum, columns});
-  if (kept.size() > kMostKept) kept.pop_back();
-  return columns;
+  const auto build = [&] { return baseline_columns(frame, equation, shape); };
+  if (frame.kept == nullptr) return std::make_shared<const BaselineColumns>(build());
+  return frame.kept->plain.get(sum_of(frame, equation, shape), build);
+}
+
+std::shared_ptr<const WeightedBaseline> weighted_baseline(const Frame& frame, Equation equation,
+                                                          std::span<const double> shape,
+                                                          const WeightedRows& rows) {
+  const auto build = [&] { return weighted(frame, equation, shape, rows); };
+  if (frame.kept == nullptr) return std::make_shared<const WeightedBaseline>(build());
+  Sum sum = sum_of(frame, equation, shape);
+  for (const Eigen::Index row : rows.at) sum.add(static_cast<double>(row));
+  sum.add(rows.weight);
+  return frame.kept->weighted.get(sum, build);
 }
 
 }  // namespace flexspline::studies

@@ -170,6 +170,7 @@ class Specifier {
     }
     factor_ *= counterpart.law_factor;
     difference_ += counterpart.side_difference;
+    spring_difference_ += counterpart.spring_difference;
     if (counterpart.spring_sees) spring_sees_ = counterpart.spring_sees;
   }
 
@@ -210,20 +211,22 @@ class Specifier {
     spec().f = std::move(f.law);
     spec().g_inverse = std::move(g.law);
     spec().h = modulation_law(seen_, shape, range, spring_sees_);
-    split_sides();
-    if (shape[2] != 0.0) {
-      spec().effects.push_back({"torsion_zero", {{"zero", shape[2] * seen_.torsion_range}}});
+    split_sides(spec().f, spring_difference_);
+    split_sides(spec().g_inverse, difference_);
+    if (shape[2] != 0.0 || frame_.zero != 0.0) {
+      const double zero = frame_.zero + shape[2] * seen_.torsion_range;
+      spec().effects.push_back({"torsion_zero", {{"zero", zero}}});
     }
     if (own.size() > laws)
       spec().effects.push_back({"torque_sensor_offset", {{"offset", own[laws]}}});
   }
 
-  void split_sides() {
-    if (difference_ == 0.0) return;
-    auto& both = spec().g_inverse.coefficients;
+  static void split_sides(LawSpec& law, double difference) {
+    if (difference == 0.0) return;
+    auto& both = law.coefficients;
     const std::vector<double> odd = both;
-    for (double& c : both) c *= 1.0 + difference_;
-    for (double c : odd) both.push_back((1.0 - difference_) * c);
+    for (double& c : both) c *= 1.0 + difference;
+    for (double c : odd) both.push_back((1.0 - difference) * c);
   }
 
   // Dry friction as an effect, what grows with the rate as g^-1.
@@ -264,6 +267,7 @@ class Specifier {
   std::vector<std::string> notes_;
   double factor_ = 1.0;
   double difference_ = 0.0;
+  double spring_difference_ = 0.0;
   std::function<double(double)> spring_sees_;
 };
 

@@ -82,6 +82,21 @@ TEST(Separable, TheResidualStandsUprightOnEveryFreeColumn) {
   EXPECT_NEAR((y - block.columns * fit.b - fit.residual[0]).norm(), 0.0, 1e-14);
 }
 
+TEST(Separable, SharedColumnsAreColumnsLikeOthers) {
+  const VectorXd t = times();
+  const VectorXd y = VectorXd(2.0 * decay(0.5, t)) + disturbance(t);
+  const std::vector<double> rates = {0.3, 0.5, 2.0, 3.0};
+  const MatrixXd all = decays(rates, t);
+  SeparableBlock parted{all.rightCols(1), y, {1, 0, 3, 2}};
+  parted.shared = std::make_shared<const SharedColumns>(all.leftCols(3));
+  const VectorXd lower = VectorXd::Constant(4, -2.0);
+  const auto whole = solve_linear(linear_problem({{all, y, {1, 0, 3, 2}}}, lower), {});
+  const auto shared = solve_linear(linear_problem({parted}, lower), {});
+  EXPECT_LT((whole.b - shared.b).norm(), 1e-6 * whole.b.norm());
+  EXPECT_LT((whole.residual[0] - shared.residual[0]).norm(), 1e-9);
+  EXPECT_GT(whole.b.cwiseAbs().minCoeff(), 1e-3) << "every column has a part";
+}
+
 TEST(Separable, TheShapeFoundIsTheBestOfAScan) {
   const VectorXd t = times();
   const auto problem =

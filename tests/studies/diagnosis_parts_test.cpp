@@ -88,6 +88,28 @@ TEST(Noise, ColourOfAnAutoregressionIsAtMostItsOwn) {
   }
 }
 
+// The autocorrelation of a first-order process is rho^k.
+TEST(Noise, RowsOfAnAutoregressionAreAlikeUntilHalfOfItIsForgotten) {
+  const Frame frame = closed_form_frame(40000);
+  for (const auto& [rho, alike] : {std::pair{0.0, 1}, {0.45, 1}, {0.6, 2}, {0.8, 4}}) {
+    EXPECT_EQ(rows_alike(frame, coloured_noise(frame.rows(), rho, 11)), alike) << rho;
+  }
+  EXPECT_EQ(rows_alike(frame, ArrayXd::Zero(frame.rows())), 1);
+}
+
+TEST(Noise, OneRowOfThoseThatAreAlikeStandsForAll) {
+  Frame frame = closed_form_frame(8000);
+  frame.usable.head(100).setZero();
+  const ArrayXd weight = weights_of(frame, {0.5, 0.4});
+  EXPECT_TRUE((weights_of_fit(frame, weight, 1) == weight).all());
+  const ArrayXd few = weights_of_fit(frame, weight, 2);
+  EXPECT_EQ((few.tail(4000) > 0.0).count(), 2000);
+  EXPECT_NEAR(few.square().sum(), weight.square().sum(), 1e-3 * weight.square().sum());
+  EXPECT_EQ(few.head(100).maxCoeff(), 0.0);
+  EXPECT_GE((weights_of_fit(frame, weight, 40).tail(4000) > 0.0).count(), 1000)
+      << "a recording keeps enough for a fit to it alone";
+}
+
 TEST(Noise, RowsThatAreNotUsableWeighNothingAndDoNotCount) {
   Frame frame = closed_form_frame(8000);
   frame.usable.segment(1000, 300).setZero();

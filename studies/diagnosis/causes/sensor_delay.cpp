@@ -16,6 +16,13 @@ std::vector<Shape> delay(const Frame& f) {
            .meaning = "by which it is late"}};
 }
 
+// Early, a motor torque would be one that follows itself: what a filter of it explains as well.
+std::vector<Shape> late(const Frame& f) {
+  auto shapes = delay(f);
+  shapes[0].lower = 0.0;
+  return shapes;
+}
+
 std::vector<Shape> long_delay(const Frame& f) {
   auto shapes = delay(f);
   shapes[0].lower *= 2.0;
@@ -118,7 +125,7 @@ CauseRow describe_sensor_delay() {
                     {.equation = "tau_m,recorded(t) = tau_m(t - d)",
                      .rigs = kDrives,
                      .at = {Equation::motor},
-                     .shapes = delay,
+                     .shapes = late,
                      .transform = motor_torque_late,
                      .start = small,
                      .no_counterpart = kNotAtMotor}}};

@@ -41,6 +41,7 @@ CauseRow describe_soft_windup() {
                      .shapes = knee,
                      .terms = terms,
                      .columns = stiffening,
+                     .nonnegative = true,
                      .where = may_be_soft,
                      .counterpart = as_windup}}};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,11 +11,21 @@
 
 namespace flexspline::estimators {
 
-/// Rows of a separable problem that share their columns: target - columns b(index), all weighted.
+/// Weighted columns that several fits share, with their part of the normal equations.
+struct SharedColumns {
+  explicit SharedColumns(Eigen::MatrixXd weighted);
+
+  Eigen::MatrixXd columns;
+  Eigen::MatrixXd gram;  ///< columns^T columns
+};
+
+/// Rows of a separable problem that share their columns: target - [shared columns] b(index), all
+/// weighted.
 struct SeparableBlock {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target;
-  std::vector<Eigen::Index> index;  ///< position in b of each column
+  std::vector<Eigen::Index> index;  ///< position in b of each column, the shared ones first
+  std::shared_ptr<const SharedColumns> shared = nullptr;
 };
 
 /// A parameter that enters non-linearly; held where its bounds are one.

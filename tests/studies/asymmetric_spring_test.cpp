@@ -1,0 +1,92 @@
+// A spring that is stiffer on one side, and a zero that is far off: both of the baseline, no names.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "autoregression.hpp"
+#include "diagnosis/cause.hpp"
+#include "diagnosis/search.hpp"
+#include "diagnosis_checks.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+ConcealedCase disturbed(Rig rig, std::uint64_t seed, std::string disturbance,
+                        std::vector<data::HiddenEffect> effects = {}) {
+  ConcealPlan plan;
+  plan.rig = rig;
+  plan.seed = seed;
+  plan.disturbances = {std::move(disturbance)};
+  plan.effects = std::move(effects);
+  auto made = conceal(plan);
+  EXPECT_TRUE(made.has_value()) << (made ? "" : made.error().message());
+  return made ? *std::move(made) : ConcealedCase{};
+}
+
+double applied(const ConcealedCase& hidden, const std::string& parameter) {
+  for (const auto& one : hidden.answer.disturbances.front().parameters) {
+    if (one.name == parameter) return one.value;
+  }
+  return kNotComputed;
+}
+
+/// What the trial of the part adds to a frame, over its f.
+double excess_found(const Frame& frame) {
+  const auto findings = fit_baseline(frame);
+  EXPECT_TRUE(findings.has_value());
+  if (!findings) return kNotComputed;
+  const auto trials = try_causes(frame, *findings);
+  EXPECT_EQ(trials.front().cause.row->id, "asymmetric_spring");
+  return trials.front().fit.model.coefficients.back()[0];
+}
+
+// tau = f(x) (1 + a sgn x) in closed form: the part is the best of all, and its coefficient a.
+TEST(AsymmetricSpring, IsFoundWithItsSize) {
+  for (const double a : {0.03, -0.05}) {
+    Frame frame = closed_form_frame();
+    const Eigen::ArrayXd spring = 5e3 * frame.torsion + 1e12 * frame.torsion.cube();
+    frame.torque = spring + a * spring.abs() + 4.0 * (frame.torsion_rate / 0.02).tanh() +
+                   0.02 * coloured_noise(frame.rows(), 0.0, 17);
+    frame.equations = {Equation::torsion};
+    frame.measure_torsion();
+    frame.torque_range = frame.torque.abs().maxCoeff();
+    EXPECT_NEAR(excess_found(frame), a, 0.1 * std::abs(a));
+  }
+}
+
+class Disturbed : public testing::TestWithParam<Rig> {};
+
+TEST_P(Disturbed, AnAsymmetricSpringIsNoMissingPhysics) {
+  for (const std::uint64_t seed : {5U, 9U}) {
+    const ConcealedCase hidden = disturbed(GetParam(), seed, "asymmetric_spring");
+    const Diagnosis d = diagnosed(hidden.recordings);
+    EXPECT_THAT(names(d), ElementsAre()) << seed;
+    EXPECT_EQ(d.verdict, Verdict::adequate) << seed << ": " << d.says;
+    if (applied(hidden, "excess") < 0.03) continue;
+    EXPECT_THAT(d.notes, Contains(HasSubstr("stiffer at positive torsion"))) << seed;
+  }
+}
+
+TEST_P(Disturbed, AFarZeroIsNoMissingPhysics) {
+  for (const std::uint64_t seed : {5U, 9U}) {
+    const ConcealedCase hidden = disturbed(GetParam(), seed, "encoder_zero");
+    const Diagnosis d = diagnosed(hidden.recordings);
+    EXPECT_THAT(names(d), ElementsAre()) << seed;
+    EXPECT_EQ(d.verdict, Verdict::adequate) << seed << ": " << d.says;
+  }
+}
+
+TEST_P(Disturbed, AnEffectBesideItKeepsItsName) {
+  const ConcealedCase hidden =
+      disturbed(GetParam(), 9, "asymmetric_spring", {{"presliding_hysteresis", 0.06}});
+  EXPECT_THAT(names(diagnosed(hidden.recordings)), ElementsAre("presliding_hysteresis"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rigs, Disturbed, testing::Values(Rig::locked, Rig::free, Rig::specimen),
+                         [](const auto& info) { return std::string(name_of(info.param)); });
+
+}  // namespace
+}  // namespace flexspline::studies
