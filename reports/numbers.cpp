@@ -38,6 +38,10 @@ std::string compact(double value, int count) {
   return text;
 }
 
+std::string of_peak(double percent) {
+  return percent > 100.0 ? "diverged" : digits(percent, 2) + " % of peak";
+}
+
 std::pair<double, double> widened(double lower, double upper, double share) {
   const double margin = share * (upper - lower);
   if (!(margin > 0.0)) return {lower, upper};

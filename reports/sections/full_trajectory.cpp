@@ -114,13 +114,12 @@ std::string verdict_of(const StudyView& view) {
   std::string text = mine.percent < 2.0 ? "Yes: " : mine.percent < 5.0 ? "Roughly: " : "No: ";
   text += inside ? "on smaller and slower loops than the operating point's, "
                  : "on held-out recordings, ";
-  text += full->id + " has a torque error of at most " + digits(mine.percent, 2) + " % of peak (" +
-          mine.where + ")";
+  text += "largest torque error of " + full->id + ": " + of_peak(mine.percent) + " (" + mine.where +
+          ")";
   const EstimatorView* paper = view.paper_fit();
   const Worst theirs = paper != nullptr ? worst_of(view, *paper, inside) : Worst{};
   if (std::isfinite(theirs.percent)) {
-    text +=
-        "; " + paper->id + " by up to " + digits(theirs.percent, 2) + " % (" + theirs.where + ")";
+    text += "; of " + paper->id + ": " + of_peak(theirs.percent) + " (" + theirs.where + ")";
   }
   return text + ".";
 }

@@ -95,8 +95,8 @@ std::string verdict_of(const StudyView& view) {
   }
   if (!std::isfinite(highest.percent)) return {};
   const std::string answer = highest.percent < 2.0 ? "Yes: " : "No: ";
-  return answer + "on held-out loops, the worst torque error of " + paper->id + " is between " +
-         digits(lowest, 2) + " % and " + digits(highest.percent, 2) + " % of peak (" +
+  return answer + "torque error of " + paper->id + " on the worst held-out loop of an input: " +
+         of_peak(lowest) + " at best, " + of_peak(highest.percent) + " at worst (" +
          highest_input + " at " + highest.where + ").";
 }
 

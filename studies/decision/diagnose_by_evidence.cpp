@@ -94,7 +94,10 @@ Result<Diagnosis> diagnosed(const RecordingSet& recordings, const DiagnosisProgr
   to.notes.insert(to.notes.end(), frame->notes.begin(), frame->notes.end());
   to.baseline_model = "f, g and h as splines, f not odd by force; a zero of the angle";
   account(*frame, d, proof, calibration, to);
-  if (one_loop(*frame)) to.next_experiment = another_rate(*frame);
+  if (one_loop(*frame)) {
+    to.experiments = {another_rate(*frame)};
+    to.next_experiment = to.experiments.front();
+  }
   if (settings.model) add_model(*frame, d.fit.state, to);
   return to;
 }

@@ -61,7 +61,8 @@ std::vector<std::string> remarks_on(const Selection& s) {
 }
 
 void say_one_loop(const Frame& frame, Diagnosis& d) {
-  d.next_experiment = another_rate(frame);
+  d.experiments = {another_rate(frame)};
+  d.next_experiment = d.experiments.front();
   std::string says = "Cannot be decided with these data: ";
   says += d.verdict == Verdict::adequate
               ? "the baseline follows this one loop, but at one amplitude and one rate viscous "
@@ -168,7 +169,8 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   if (ripple) spell_ripple(frame, selection, *ripple, d);
   name_in_units(d);
   d.moved = spelled_moves(frame, selection);
-  d.next_experiment = next_experiment(frame, selection);
+  d.experiments = next_experiments(frame, selection);
+  if (!d.experiments.empty()) d.next_experiment = d.experiments.front();
   d.says = spelled_verdict(selection, limits, d);
   judge_decidable(frame, selection, limits, d);
   return d;

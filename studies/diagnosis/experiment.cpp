@@ -1,68 +1,93 @@
 #include "diagnosis/experiment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/middle.hpp"
+#include "diagnosis/next_motion.hpp"
 
 namespace flexspline::studies {
 namespace {
 
 using Eigen::ArrayXd;
-using Eigen::Index;
 
-constexpr Index kSamples = 600;
-constexpr double kCycles = 3.0;
+constexpr double kSeparated = 5.0;  // standard deviations
 
-// A frame of one sine of torsion, the motor following.
-Frame sine_frame(const Frame& like, double amplitude, double frequency) {
-  Frame f = like;
-  const double w = 2.0 * std::numbers::pi * frequency;
-  f.segments = {{"next", 0, kSamples, Split::train}};
-  f.time = ArrayXd::LinSpaced(kSamples, 0.0, kCycles / frequency);
-  f.clock = f.time;
-  const ArrayXd s = (w * f.time).sin();
-  const ArrayXd c = (w * f.time).cos();
-  f.torsion = amplitude * s;
-  f.torsion_rate = amplitude * w * c;
-  f.torsion_acceleration = -amplitude * w * w * s;
-  const double turns = f.rig == Rig::locked || f.travels ? f.ratio : 1.0;
-  f.motor_angle = turns * f.torsion, f.motor_speed = turns * f.torsion_rate;
-  f.motor_acceleration = turns * f.torsion_acceleration;
-  for (ArrayXd* zero :
-       {&f.load_angle, &f.load_speed, &f.load_acceleration, &f.torque, &f.smooth_torque,
-        &f.torque_rate, &f.motor_torque, &f.smooth_motor_torque, &f.motor_torque_rate}) {
-    zero->setZero(kSamples);
+/// Expected distance of two models along a motion, in standard deviations of the noise: over all
+/// equations that both predict.
+double separation(const Frame& frame, const DriveModel& a, const DriveModel& b,
+                  const std::array<EquationNoise, 3>& noise) {
+  const ModelFit one = evaluate(frame, a, reference_of(frame, a));
+  const ModelFit other = evaluate(frame, b, reference_of(frame, b));
+  double squares = 0.0;
+  for (Equation equation : frame.equations) {
+    const std::size_t e = index_of(equation);
+    if (one.prediction[e].size() != other.prediction[e].size()) continue;
+    const double level = middle(noise[e].level);
+    if (!(level > 0.0)) continue;
+    squares += ((one.prediction[e] - other.prediction[e]) / level).square().sum();
   }
-  f.usable = ArrayXd::Ones(kSamples);
-  f.equations = {Equation::torsion};
-  return f;
+  return std::sqrt(squares);
 }
 
-ArrayXd predicted(const Frame& frame, const DriveModel& model) {
-  const auto fit = evaluate(frame, model, reference_of(frame, model));
-  return fit.prediction[index_of(Equation::torsion)];
+/// Two causes of which the recordings do not decide, each in its model.
+struct Pair {
+  const Trial* best;
+  const Trial* other;
+};
+
+/// Every cause with its closest alternative; the first also with what came next behind it.
+std::vector<Pair> undecided_pairs(const Selection& s) {
+  std::vector<Pair> pairs;
+  for (const Accepted& accepted : s.accepted) {
+    const bool first = &accepted == &s.accepted.front();
+    if (!accepted.rivals.empty()) {
+      pairs.push_back({&accepted.trial, &accepted.rivals.front()});
+    } else if (first && !accepted.field.empty() && accepted.field.front().cause.row != nullptr) {
+      pairs.push_back({&accepted.trial, &accepted.field.front()});
+    }
+  }
+  return pairs;
 }
 
-double separation(const Frame& like, const DriveModel& a, const DriveModel& b, double noise,
-                  double amplitude, double frequency) {
-  const Frame frame = sine_frame(like, amplitude, frequency);
-  return (predicted(frame, a) - predicted(frame, b)).matrix().norm() / noise;
+std::string in_words(const NextExperiment& next, const std::string& motion) {
+  if (next.separation_sigma < kSeparated) {
+    return fmt::format(
+        "no motion within the recorded limits separates {} from {}: z = {:.1f} at best, {} of "
+        "{:.3g} Hz; record further or faster",
+        next.separates[0], next.separates[1], next.separation_sigma, motion, next.frequency_hz);
+  }
+  return fmt::format("{} of {:.3g} Hz, three cycles: expected to separate {} from {} (z = {:.0f})",
+                     motion, next.frequency_hz, next.separates[0], next.separates[1],
+                     next.separation_sigma);
 }
 
-const Trial* closest_rival(const Selection& s) {
-  if (s.accepted.empty()) return nullptr;
-  const Accepted& first = s.accepted.front();
-  if (!first.rivals.empty()) return &first.rivals.front();
-  return first.field.empty() || first.field.front().cause.row == nullptr ? nullptr
-                                                                         : &first.field.front();
+/// The motion along which the models of a pair differ most.
+std::optional<NextExperiment> best_of(const std::vector<NextMotion>& motions, const Pair& pair,
+                                      const std::array<EquationNoise, 3>& noise) {
+  NextExperiment next;
+  next.separation_sigma = 0.0;
+  std::string motion;
+  for (const NextMotion& one : motions) {
+    const double z =
+        separation(one.frame, pair.best->fit.model, pair.other->fit.model, noise);
+    if (!(z > next.separation_sigma)) continue;
+    next.separation_sigma = z;
+    next.amplitude = one.amplitude;
+    next.frequency_hz = one.frequency_hz;
+    motion = one.says;
+  }
+  if (!(next.separation_sigma > 0.0)) return std::nullopt;
+  next.separates = {std::string(pair.best->cause.row->id), std::string(pair.other->cause.row->id)};
+  next.excitation = "sine";
+  next.says = in_words(next, motion);
+  return next;
 }
-
-bool on_torsion(const Trial& trial) { return trial.cause.form->at.front() == Equation::torsion; }
 
 }  // namespace
 
@@ -95,34 +120,13 @@ NextExperiment another_rate(const Frame& frame) {
   return next;
 }
 
-std::optional<NextExperiment> next_experiment(const Frame& frame, const Selection& s) {
-  const Trial* rival = closest_rival(s);
-  if (rival == nullptr || frame.rig == Rig::free || frame.travels) return std::nullopt;
-  const Trial& best = s.accepted.front().trial;
-  if (!on_torsion(best) || !on_torsion(*rival)) return std::nullopt;
-  const double noise = s.final.noise[index_of(Equation::torsion)].level.front();
-  const double fast = frame.rate_range / (2.0 * std::numbers::pi * frame.torsion_range);
-  const double slow = std::max(0.3 / frame.duration, 1e-4 * fast);
-  NextExperiment next;
-  next.separation_sigma = 0.0;
-  for (double share : {0.1, 0.25, 0.5, 0.75, 1.0}) {
-    for (double frequency : geometric(slow, 3.0 * fast, 8)) {
-      const double amplitude = share * frame.torsion_range;
-      const double sigma =
-          separation(frame, best.fit.model, rival->fit.model, noise, amplitude, frequency);
-      if (!(sigma > next.separation_sigma)) continue;
-      next.separation_sigma = sigma;
-      next.amplitude = amplitude;
-      next.frequency_hz = frequency;
-    }
+std::vector<NextExperiment> next_experiments(const Frame& frame, const Selection& s) {
+  std::vector<NextExperiment> list;
+  for (const Pair& pair : undecided_pairs(s)) {
+    const auto motions = next_motions(frame, pair.best->fit.model);
+    if (auto next = best_of(motions, pair, s.final.noise)) list.push_back(std::move(*next));
   }
-  if (!(next.separation_sigma > 0.0)) return std::nullopt;
-  next.separates = {std::string(best.cause.row->id), std::string(rival->cause.row->id)};
-  next.excitation = "sine";
-  next.says =
-      fmt::format("sine of {:.3g} Hz, three cycles: expected to separate {} from {} (z = {:.0f})",
-                  next.frequency_hz, next.separates[0], next.separates[1], next.separation_sigma);
-  return next;
+  return list;
 }
 
 }  // namespace flexspline::studies

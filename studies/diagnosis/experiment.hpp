@@ -1,17 +1,16 @@
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "diagnosis/selection.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
 namespace flexspline::studies {
 
-/// The sine that tells the best cause from its closest rival by the most sigma: both models, as
-/// fitted, are run over amplitudes up to the largest recorded and frequencies from a tenth of the
-/// slowest to thrice the fastest, on the torsion law. Absent where there is no rival, and on the
-/// free rig, whose torsion follows from the load.
-std::optional<NextExperiment> next_experiment(const Frame& frame, const Selection& selection);
+/// Of every cause that has an alternative, and of the first one beside what came next behind it: the
+/// motion (next_motions) along which both models, as fitted, differ most in the torques of all
+/// equations, in standard deviations of the noise. Below 5 it says that none separates them.
+std::vector<NextExperiment> next_experiments(const Frame& frame, const Selection& selection);
 
 /// Whether all recordings run the torsion at one amplitude and one rate, so that g^-1 can take up a
 /// memory that knows no rate.

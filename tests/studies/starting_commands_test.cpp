@@ -136,6 +136,15 @@ TEST_F(CommandLine, DoctorFitsCertifiedProblemsAndFindsTheSolversGood) {
   EXPECT_EQ(checks.back()["check"], "solvers");
   EXPECT_EQ(checks.back()["health"], "good");
   EXPECT_THAT(checks.front()["found"].get<std::string>(), HasSubstr("Ceres"));
+  const auto memory = std::ranges::find(checks, "memory", [](const auto& c) { return c["check"]; });
+  ASSERT_NE(memory, checks.end());
+  double all = 0.0;
+  double available = 0.0;
+  const std::string found = (*memory)["found"];
+  ASSERT_EQ(std::sscanf(found.c_str(), "%lf GiB, of which %lf can", &all, &available), 2) << found;
+  EXPECT_GT(available, 0.0);
+  EXPECT_GE(all, available);
+  EXPECT_THAT(found, HasSubstr("a diagnosis takes"));
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include <unistd.h>
@@ -54,16 +58,44 @@ Check processors() {
   return {"processors", Health::good, fmt::format("{}: --jobs is {} by default", count, count)};
 }
 
-Check memory() {
-  constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
-  constexpr double kEnough = 1.0;  // a fit of 3e6 rows takes less
-  const double free = static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) *
-                      static_cast<double>(sysconf(_SC_PAGESIZE)) / kGibibyte;
-  Check check{"memory", Health::good, fmt::format("{:.1f} GiB free", free)};
-  if (free < kEnough) {
-    check.health = Health::limited;
-    check.remedy = "close other programs, or give fewer --jobs";
+constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+
+/// The largest resident set of a job, measured; how is in docs/performance.md.
+struct Need {
+  std::string_view job;
+  double gibibytes;
+};
+
+constexpr Need kNeeds[] = {{"a diagnosis", 0.1}, {"the study of the paper", 0.4}};
+
+/// What can be had without swapping: what is free, and what caches give back.
+double available_gibibytes() {
+  std::ifstream file("/proc/meminfo");
+  std::string key;
+  double kibibytes = 0.0;
+  while (file >> key >> kibibytes) {
+    if (key == "MemAvailable:") return kibibytes * 1024.0 / kGibibyte;
+    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
+  return static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) *
+         static_cast<double>(sysconf(_SC_PAGESIZE)) / kGibibyte;
+}
+
+Check memory() {
+  const double all = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                     static_cast<double>(sysconf(_SC_PAGESIZE)) / kGibibyte;
+  const double available = available_gibibytes();
+  Check check{"memory", Health::good,
+              fmt::format("{:.1f} GiB, of which {:.1f} can be had", all, available)};
+  std::string too_large;
+  for (const Need& need : kNeeds) {
+    check.found += fmt::format("; {} takes {:.2g}", need.job, need.gibibytes);
+    if (need.gibibytes > available) too_large = need.job;
+  }
+  if (too_large.empty()) return check;
+  check.health = Health::limited;
+  check.remedy = fmt::format("{} would not fit: close other programs, or give fewer --jobs",
+                             too_large);
   return check;
 }
 

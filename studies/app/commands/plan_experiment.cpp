@@ -36,14 +36,22 @@ std::string loop_text(const RecordingSet& set, const LoopProspect& one) {
                      one.frequency_hz);
 }
 
-std::string text_of(const RecordingSet& set, const LoopPlan& plan,
-                    const studies::Diagnosis& diagnosis) {
+std::string causes_text(const RecordingSet& set, const studies::Diagnosis& diagnosis) {
   std::string text = fmt::format("causes: {}", diagnosis.says);
-  text += diagnosis.next_experiment
-              ? fmt::format("\n  record next: {}", diagnosis.next_experiment->says)
-              : "\n  no recording is proposed: no two causes of the torsion equation are left";
-  text += fmt::format("\nh in these recordings: {}\n  {:<37} {}", plan.says,
-                      "expected of these motions", band_text(plan.recorded));
+  for (const studies::NextExperiment& next : diagnosis.experiments) {
+    text += fmt::format("\n  record next: {}; amplitude {:.3g} {}", next.says,
+                        shown_motion(set, next.amplitude), set.display.motion);
+  }
+  if (!diagnosis.experiments.empty()) return text;
+  return text + "\n  no recording is proposed: no two causes are left to separate";
+}
+
+/// Absent, with the reason, where the rig has no loops of torsion to plan.
+std::string loops_text(const RecordingSet& set, const Result<LoopPlan>& planned) {
+  if (!planned) return fmt::format("\nloops that identify h: {}", planned.error().message());
+  const LoopPlan& plan = *planned;
+  std::string text = fmt::format("\nh in these recordings: {}\n  {:<37} {}", plan.says,
+                                 "expected of these motions", band_text(plan.recorded));
   for (std::size_t i = 0; i < std::min(kShown, plan.candidates.size()); ++i) {
     text += fmt::format("\n  with a sine of {:<22} {}", loop_text(set, plan.candidates[i]),
                         band_text(plan.candidates[i]));
@@ -65,22 +73,29 @@ ordered_json json_of(const LoopProspect& one) {
           {"log_h_half_width", number_or_null(one.h_half_width)}};
 }
 
-ordered_json json_of(const LoopPlan& plan, const studies::Diagnosis& diagnosis) {
+ordered_json json_of(const studies::NextExperiment& next) {
+  return {{"separates", next.separates},
+          {"excitation", next.excitation},
+          {"amplitude", number_or_null(next.amplitude)},
+          {"frequency_hz", number_or_null(next.frequency_hz)},
+          {"separation_sigma", number_or_null(next.separation_sigma)},
+          {"says", next.says}};
+}
+
+ordered_json json_of(const Result<LoopPlan>& planned, const studies::Diagnosis& diagnosis) {
+  ordered_json experiments = ordered_json::array();
+  for (const auto& next : diagnosis.experiments) experiments.push_back(json_of(next));
   ordered_json list = ordered_json::array();
-  for (const LoopProspect& one : plan.candidates) list.push_back(json_of(one));
-  ordered_json causes = nullptr;
-  if (const auto& next = diagnosis.next_experiment) {
-    causes = {{"separates", next->separates},
-              {"excitation", next->excitation},
-              {"amplitude", number_or_null(next->amplitude)},
-              {"frequency_hz", number_or_null(next->frequency_hz)},
-              {"separation_sigma", number_or_null(next->separation_sigma)},
-              {"says", next->says}};
+  for (std::size_t i = 0; planned && i < planned->candidates.size(); ++i) {
+    list.push_back(json_of(planned->candidates[i]));
   }
-  return {{"causes", causes},
-          {"recorded", json_of(plan.recorded)},
-          {"torque_noise", plan.torque_noise},
-          {"candidates", list}};
+  return {{"causes", experiments.empty() ? ordered_json(nullptr) : experiments.front()},
+          {"experiments", experiments},
+          {"recorded", planned ? json_of(planned->recorded) : ordered_json(nullptr)},
+          {"torque_noise", planned ? number_or_null(planned->torque_noise) : ordered_json(nullptr)},
+          {"candidates", list},
+          {"loops_not_planned",
+           planned ? ordered_json(nullptr) : ordered_json(planned.error().message())}};
 }
 
 Result<ExitCode> run(const Arguments& arguments, Console& console) {
@@ -96,9 +111,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto plan = studies::plan_loops(*set, [&](double share) {
     console.progress(kOfDiagnosis + (1.0 - kOfDiagnosis) * share, "fitting with one loop more");
   });
-  if (!plan) return tl::unexpected(plan.error());
-  console.result(console.json ? json_of(*plan, *diagnosis).dump(2)
-                              : text_of(*set, *plan, *diagnosis));
+  if (!plan && plan.error().code != ErrorCode::bad_data) return tl::unexpected(plan.error());
+  console.result(console.json ? json_of(plan, *diagnosis).dump(2)
+                              : causes_text(*set, *diagnosis) + loops_text(*set, plan));
   return kDone;
 }
 
@@ -108,8 +123,8 @@ CommandRow describe_plan_experiment() {
   return {.id = "plan-experiment",
           .group = "Fit and diagnose",
           .summary =
-              "Which recording to take next: to separate the causes that are left, and to identify "
-              "h; writes nothing",
+              "Which recording to take next, on any rig: to separate causes that cannot be decided, "
+              "and to identify h where a torsion is imposed; writes nothing",
           .arguments = {{.name = "dataset",
                          .meaning = "folder of a data set",
                          .value = "DATASET",

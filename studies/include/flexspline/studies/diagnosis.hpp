@@ -107,7 +107,7 @@ struct HoldoutProof {
 struct NextExperiment {
   std::vector<std::string> separates;
   std::string excitation;
-  double amplitude = kNotComputed;  ///< rad (m) at the output
+  double amplitude = kNotComputed;  ///< rad (m) of the torsion; of an output that turns, its angle
   double frequency_hz = kNotComputed;
   double separation_sigma = kNotComputed;
   std::string says;
@@ -148,7 +148,8 @@ struct Diagnosis {
   HoldoutProof holdout;
   std::optional<HoldoutProof>
       cross_validated;  ///< of the other recordings, where holdout is nested
-  std::optional<NextExperiment> next_experiment;
+  std::optional<NextExperiment> next_experiment;  ///< the first of experiments
+  std::vector<NextExperiment> experiments;        ///< one a pair of causes, the largest first
   std::vector<DiagnosedSeries> series;
   std::vector<std::string> notes;
   std::vector<data::SanityFinding> mistaken;  ///< what looks like a mistake, not like physics
