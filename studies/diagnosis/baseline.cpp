@@ -64,6 +64,12 @@ ArrayXd modulation(const Frame& frame, std::span<const double> shape) {
   return (shape[0] * x2 + shape[1] * x2.square()).max(-2.0).min(2.0).exp();
 }
 
+Eigen::VectorXd heights(const IntegratedBasis& basis) {
+  Eigen::VectorXd whole(static_cast<Index>(basis.size()));
+  basis.values(1.0, {whole.data(), basis.size()});
+  return whole;
+}
+
 // f = sum_i c_i I_i(x); of a firm spring sum_i c_i (I_i(x) + e I_i(1) x), whose slope with c_i >= 0
 // is nowhere below e/(1 + e) of its mean.
 MatrixXd elastic_columns(const Frame& frame, const ArrayXd& x) {
@@ -71,10 +77,9 @@ MatrixXd elastic_columns(const Frame& frame, const ArrayXd& x) {
   MatrixXd columns(x.size(), static_cast<Index>(basis.size()));
   odd_columns(basis, x, columns);
   if (!frame.firm_spring) return columns;
-  std::vector<double> whole(basis.size());
-  basis.values(1.0, whole);
-  for (std::size_t k = 0; k < whole.size(); ++k) {
-    columns.col(static_cast<Index>(k)) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
+  const Eigen::VectorXd whole = heights(basis);
+  for (Index k = 0; k < whole.size(); ++k) {
+    columns.col(k) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
   }
   return columns;
 }
@@ -86,7 +91,8 @@ BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) 
   const Index f = elastic.cols();
   const Index g = static_cast<Index>(dissipative.size());
   BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
-                    Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g};
+                    Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g, Eigen::VectorXd(f + g)};
+  c.height << heights(IntegratedBasis(even_knots(kElasticKnots))), heights(dissipative);
   c.columns.leftCols(f) = elastic;
   odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
               c.columns.middleCols(f, g));
@@ -102,7 +108,8 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
   const Index f = static_cast<Index>(position.size());
   const auto widths = travelling_widths(shape);
   const Index g = static_cast<Index>(widths.size()) + 1;
-  BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g};
+  BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g,
+                    Eigen::VectorXd::Ones(f)};
   c.lower.head(f).setConstant(kFree);
   for (Index r = 0; r < frame.rows(); ++r) {
     const auto local = position.at(frame.torsion[r]);
@@ -125,7 +132,7 @@ BaselineColumns motor_columns(const Frame& frame) {
   const Index n = kDryWidths;
   const Index load = frame.rig == Rig::servo ? 2 : 0;
   BaselineColumns c{MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1,
-                    n};
+                    n, {}};
   c.columns.col(0) = frame.motor_speed;
   const auto widths = dry_widths(frame);
   for (Index k = 0; k < n; ++k) {
@@ -200,7 +207,7 @@ BaselineColumns baseline_columns(const Frame& frame, Equation equation,
   if (equation == Equation::torsion) {
     return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
   }
-  if (equation == Equation::load) return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1};
+  if (equation == Equation::load) return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1, {}};
   return motor_columns(frame);
 }
 

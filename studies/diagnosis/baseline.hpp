@@ -15,6 +15,7 @@ struct BaselineColumns {
   Eigen::VectorXd lower;
   Eigen::Index elastic = 0;      ///< the first columns: f; of the motor: viscous friction
   Eigen::Index dissipative = 0;  ///< the next: g^-1; of the motor: dry friction
+  Eigen::VectorXd height;        ///< of the first columns, splines: what they rise to; may be empty
 };
 
 /// What the equation's own output is, measured: tau, tau - J2 theta_l'', tau_m - J1 theta_m'' -

@@ -90,9 +90,9 @@ class Recent {
 };
 
 // What the rows hardly see would be fitted to their noise, and be anything on others.
-void leave_unseen(BaselineColumns& torsion) {
-  for (auto spline : torsion.columns.leftCols(torsion.elastic + torsion.dissipative).colwise()) {
-    if (spline.cwiseAbs().maxCoeff() < kSeen) spline.setZero();
+void leave_unseen(BaselineColumns& c) {
+  for (Eigen::Index k = 0; k < c.height.size(); ++k) {
+    if (c.columns.col(k).cwiseAbs().maxCoeff() < kSeen * c.height[k]) c.columns.col(k).setZero();
   }
 }
 
@@ -104,7 +104,7 @@ WeightedBaseline weighted(const Frame& frame, Equation equation, std::span<const
                             (all->columns(rows.at, Eigen::all).array().colwise() * rows.weight))};
   }
   BaselineColumns some = baseline_columns(motion_at(frame, rows.at), equation, shape);
-  if (equation == Equation::torsion) leave_unseen(some);
+  leave_unseen(some);
   some.columns.array().colwise() *= rows.weight;
   return {std::move(some.lower),
           std::make_shared<const estimators::SharedColumns>(std::move(some.columns))};

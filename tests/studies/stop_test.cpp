@@ -39,11 +39,13 @@ class AskedToStop : public Program {
 
 TEST_F(AskedToStop, EveryLongCommandStopsWithinTwoSeconds) {
   const std::string out = path("out");
-  const std::vector<std::string> fit = {"fit", path("set"), "--out", out + "/fit", "--model"};
+  const std::vector<std::string> fit = {"fit",  path("set"), "--out",  out + "/fit",
+                                        "--rows", "all",       "--model"};
   std::vector<std::string> given = fit;
   given.push_back(path("model.toml"));
   expect_stops(given, SIGINT);
-  expect_stops({"fit", path("set"), "--estimator", "trajectory_ceres", "--out", out + "/ceres"},
+  expect_stops({"fit", path("set"), "--estimator", "trajectory_ceres", "--rows", "all", "--out",
+                out + "/ceres"},
                SIGTERM);
   expect_stops({"compare", path("set"), "--estimators", "bouc_wen,trajectory_ceres", "--out",
                 out + "/compare"},
