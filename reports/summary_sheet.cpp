@@ -34,7 +34,7 @@ figure > svg { display: block; margin: 0 auto; }
 @media screen and (max-width: 190mm) {
   body { width: auto; padding: 4mm; }
   table { display: block; overflow-x: auto; }
-  figure > svg { width: 100%; height: auto; }
+  .tall > svg, .flat > svg { width: 100%; height: auto; }
 }
 )";
 

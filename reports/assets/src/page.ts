@@ -11,7 +11,7 @@ import { scaleStrip } from "./heatmap";
 import { listenToKeys } from "./keyboard";
 import { fillLegend, refreshLegend } from "./legend";
 import { addPickers } from "./picker";
-import { asOnPaper, onThemeChange, setPrinting } from "./screen";
+import { asOnPaper, onPaper, onThemeChange, setPrinting } from "./screen";
 import { notesOf, sheetFor } from "./sheet";
 
 class DrawnFigure {
@@ -61,7 +61,7 @@ class DrawnFigure {
     const place = document.createElement("div");
     place.className = "chart";
     const { width, height } = extentOf(panel, this.figure);
-    if (width) place.style.minWidth = `${width}px`;
+    if (width && !onPaper()) place.style.minWidth = `${width}px`;
     if (height) place.style.height = `${height}px`;
     if (panel.title) box.append(title);
     box.append(place);
