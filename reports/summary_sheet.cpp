@@ -35,6 +35,7 @@ figure > svg { display: block; margin: 0 auto; }
   body { width: auto; padding: 4mm; }
   table { display: block; overflow-x: auto; }
   .tall > svg, .flat > svg { width: 100%; height: auto; }
+  th:not(.n), td:not(.n) { min-width: 9em; }
 }
 )";
 
