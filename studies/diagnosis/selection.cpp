@@ -15,7 +15,8 @@ constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
   return trial.cause.row != nullptr && trial.net_gain >= limits.net_gain &&
-         !is_taken_up(trial, limits);
+         !is_taken_up(trial, limits) &&
+         !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back(), limits);
 }
 
 Accepted accepted_as(Trial trial, const Limits& limits) {
@@ -164,6 +165,10 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
 }
 
 }  // namespace
+
+bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients, const Limits& limits) {
+  return row.of_baseline && coefficients.cwiseAbs().maxCoeff() > limits.part;
+}
 
 bool is_taken_up(const Trial& trial, const Limits& limits) {
   return trial.cause.form->transform == nullptr && trial.size >= limits.taken_up &&

@@ -15,6 +15,8 @@ struct Limits {
   double net_gain = 45.0;         ///< least net gain of a cause
   double named_gain = 200.0;      ///< least net gain of a cause that is named
   double size = 0.008;            ///< least size of a cause, share of the largest torque
+  double part = 0.06;             ///< most of a law that a part of the baseline adds: the sides of
+                                  ///< a gear differ by a tenth
   double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
   double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
   double remainder = 60.0;        ///< statistic of a coordinate that says something is left
@@ -72,6 +74,9 @@ struct Selection {
   bool unproved = false;  ///< a cause took much of the misfit, and none on recordings held out
   std::vector<Accepted> withdrawn;  ///< causes that explain too little to be named
 };
+
+/// True for a part of the baseline that adds more to its law than such parts do: something else.
+bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients, const Limits& limits);
 
 /// True for columns that the baseline counteracts: large, and larger than what is seen of them.
 bool is_taken_up(const Trial& trial, const Limits& limits);
