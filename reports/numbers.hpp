@@ -13,8 +13,8 @@ std::string digits(double value, int count);
 /// The same without zeros at the end of a fraction, for labels: 0.2, not 0.200.
 std::string compact(double value, int count);
 
-/// An error in percent of its signal's peak, "2.1 % of peak"; "diverged" where it is larger than the
-/// signal.
+/// An error in percent of its signal's peak, "2.1 % of peak"; "diverged" where it is larger than
+/// the signal.
 std::string of_peak(double percent);
 
 /// The double nearest to the value written with `count` significant digits: short in JSON.

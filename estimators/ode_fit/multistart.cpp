@@ -108,7 +108,8 @@ Result<Multistart> fit_ode_from_many(const OdeFitProblem& problem, OdeFitMethod 
   result.best.notes.push_back(result.says);
   if (result.at_best < 2 && result.best.termination == Termination::converged) {
     result.best.termination = Termination::no_progress;
-    result.best.notes.emplace_back("no two starts agree on the minimum, so it is not taken for one");
+    result.best.notes.emplace_back(
+        "no two starts agree on the minimum, so it is not taken for one");
   }
   return result;
 }

@@ -33,10 +33,16 @@ std::string symbol_tex(const Formula& one) {
 }
 
 std::string sign_tex(const std::string& sign) {
-  static const std::map<std::string, std::string> signs = {
-      {"+=", "\\mathrel{\\text{+=}}"}, {"-=", "\\mathrel{\\text{-=}}"}, {">=", "\\ge"},   {"<=", "\\le"},
-      {"+-", "\\pm"},          {"*", "\\cdot"},         {",", ",\\;\\;"}, {";", ";\\;\\;"},
-      {":", ":\\;"},           {"'", "\\prime"}};
+  static const std::map<std::string, std::string> signs = {{"+=", "\\mathrel{\\text{+=}}"},
+                                                           {"-=", "\\mathrel{\\text{-=}}"},
+                                                           {">=", "\\ge"},
+                                                           {"<=", "\\le"},
+                                                           {"+-", "\\pm"},
+                                                           {"*", "\\cdot"},
+                                                           {",", ",\\;\\;"},
+                                                           {";", ";\\;\\;"},
+                                                           {":", ":\\;"},
+                                                           {"'", "\\prime"}};
   const auto found = signs.find(sign);
   return found == signs.end() ? sign : found->second;
 }

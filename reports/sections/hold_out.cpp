@@ -95,9 +95,9 @@ std::string verdict_of(const StudyView& view) {
   }
   if (!std::isfinite(highest.percent)) return {};
   const std::string answer = highest.percent < 2.0 ? "Yes: " : "No: ";
-  return answer + "torque error of " + paper->id + " on the worst held-out loop of an input: " +
-         of_peak(lowest) + " at best, " + of_peak(highest.percent) + " at worst (" +
-         highest_input + " at " + highest.where + ").";
+  return answer + "torque error of " + paper->id +
+         " on the worst held-out loop of an input: " + of_peak(lowest) + " at best, " +
+         of_peak(highest.percent) + " at worst (" + highest_input + " at " + highest.where + ").";
 }
 
 std::optional<Section> draw(const StudyView& view) {

@@ -70,8 +70,9 @@ std::string verdict_of(const StudyView& view) {
   const std::string answer = worst.percent < 2.0   ? "Yes: "
                              : worst.percent < 5.0 ? "Roughly: "
                                                    : "Not everywhere: ";
-  return answer + "largest torque error of " + paper->id + " on the loop it was fitted to: " +
-         of_peak(worst.percent) + ", measurement noise included (" + worst.where + ").";
+  return answer + "largest torque error of " + paper->id +
+         " on the loop it was fitted to: " + of_peak(worst.percent) +
+         ", measurement noise included (" + worst.where + ").";
 }
 
 std::optional<Section> draw(const StudyView& view) {

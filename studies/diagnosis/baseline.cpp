@@ -131,8 +131,8 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
 BaselineColumns motor_columns(const Frame& frame) {
   const Index n = kDryWidths;
   const Index load = frame.rig == Rig::servo ? 2 : 0;
-  BaselineColumns c{MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1,
-                    n, {}};
+  BaselineColumns c{
+      MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1, n, {}};
   c.columns.col(0) = frame.motor_speed;
   const auto widths = dry_widths(frame);
   for (Index k = 0; k < n; ++k) {

@@ -33,8 +33,8 @@ struct Counterpart {
   std::vector<EffectSpec> effects = {};
   double motor_inertia = 0.0;  ///< added to the rig's, kg m2
   double load_inertia = 0.0;
-  double law_factor = 1.0;       ///< on f and g^-1, which had taken a gain up
-  double side_difference = 0.0;  ///< g^-1 is 1 + this forward and 1 - this backward
+  double law_factor = 1.0;         ///< on f and g^-1, which had taken a gain up
+  double side_difference = 0.0;    ///< g^-1 is 1 + this forward and 1 - this backward
   double spring_difference = 0.0;  ///< f is 1 + this on its positive side and 1 - this on the other
   /// Of the torsion, where f alone sees less of it.
   std::function<double(double)> spring_sees = {};

@@ -74,8 +74,7 @@ std::optional<NextExperiment> best_of(const std::vector<NextMotion>& motions, co
   next.separation_sigma = 0.0;
   std::string motion;
   for (const NextMotion& one : motions) {
-    const double z =
-        separation(one.frame, pair.best->fit.model, pair.other->fit.model, noise);
+    const double z = separation(one.frame, pair.best->fit.model, pair.other->fit.model, noise);
     if (!(z > next.separation_sigma)) continue;
     next.separation_sigma = z;
     next.amplitude = one.amplitude;

@@ -7,8 +7,8 @@
 
 namespace flexspline::studies {
 
-/// Of every cause that has an alternative, and of the first one beside what came next behind it: the
-/// motion (next_motions) along which both models, as fitted, differ most in the torques of all
+/// Of every cause that has an alternative, and of the first one beside what came next behind it:
+/// the motion (next_motions) along which both models, as fitted, differ most in the torques of all
 /// equations, in standard deviations of the noise. Below 5 it says that none separates them.
 std::vector<NextExperiment> next_experiments(const Frame& frame, const Selection& selection);
 

@@ -216,10 +216,11 @@ class FrameMaker {
     f.torsion -= zero;
     if (f.rig == Rig::specimen) f.load_angle = f.motor_angle = f.torsion;
     f.zero = zero;
-    f.notes.push_back(fmt::format(
-        "the zero of the torsion has an error of {:.0f} % of half its range: it is counted from where the "
-        "torque changes its sign",
-        100.0 * std::abs(zero) / reach));
+    f.notes.push_back(
+        fmt::format("the zero of the torsion has an error of {:.0f} % of half its range: it is "
+                    "counted from where the "
+                    "torque changes its sign",
+                    100.0 * std::abs(zero) / reach));
   }
 
   bool has_torque() const { return frame_.torque.abs().maxCoeff() > 0.0; }

@@ -132,9 +132,9 @@ LinearLayout linear_layout(ModelColumns& columns, const DriveModel& model,
 SeparableBlock weighted_block(ModelColumns& columns, const DriveModel& model, Equation equation,
                               const WeightedRows& rows, const LinearLayout& layout, std::size_t e) {
   SeparableBlock block;
-  block.shared = weighted_baseline(columns.seen(model), equation, baseline_shape(model, equation),
-                                   rows)
-                     ->columns;
+  block.shared =
+      weighted_baseline(columns.seen(model), equation, baseline_shape(model, equation), rows)
+          ->columns;
   for (Index k = 0; k < layout.own_size[e]; ++k) block.index.push_back(layout.own_at[e] + k);
   const auto causes = columns.causes_at(model, equation);
   for (std::size_t k = 0; k < causes.size(); ++k) {

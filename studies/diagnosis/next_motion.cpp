@@ -152,8 +152,8 @@ bool within(const Frame& like, const Frame& next) {
   const auto reaches = [&](ArrayXd Frame::*channel) {
     return largest(next, next.*channel) <= kReach * largest(like, like.*channel);
   };
-  return reaches(&Frame::torsion) && reaches(&Frame::torsion_rate) && reaches(&Frame::motor_speed) &&
-         reaches(&Frame::load_angle);
+  return reaches(&Frame::torsion) && reaches(&Frame::torsion_rate) &&
+         reaches(&Frame::motor_speed) && reaches(&Frame::load_angle);
 }
 
 std::optional<NextMotion> driven_motion(const Frame& like, const RigModel& rig, double torque,

@@ -15,7 +15,7 @@ using Eigen::Index;
 constexpr Index kHalfNarrow = 25;
 constexpr Index kHalfWide = 80;
 constexpr Index kLags = 40;
-constexpr double kAlike = 0.5;  // autocorrelation
+constexpr double kAlike = 0.5;       // autocorrelation
 constexpr Index kFewestRows = 1000;  // of a recording
 
 // Residual less running parabola, where the window fits; segment by segment.

@@ -88,7 +88,8 @@ ModelFit merged(ModelFit whole, const ModelFit& fit, const Part& part,
 Result<ModelFit> fit_part(const Frame& frame, const Findings& findings, const ModelFit& whole,
                           const std::vector<Equation>& equations, int steps) {
   const Part part = part_of(whole.model, equations);
-  auto fit = fit_model(frame, findings.fit_weight, equations, part.model, findings.reference, steps);
+  auto fit =
+      fit_model(frame, findings.fit_weight, equations, part.model, findings.reference, steps);
   if (!fit) return fit;
   return merged(whole, *fit, part, equations);
 }
@@ -269,8 +270,7 @@ void measure_noise(const Frame& frame, Findings& findings) {
     findings.noise[e].colour = noise_colour(frame, findings.fit.residual[e]);
     findings.noise[e].alike = rows_alike(frame, findings.fit.residual[e]);
     findings.weight[e] = weights_of(frame, findings.noise[e].level);
-    findings.fit_weight[e] =
-        weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
+    findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
   }
   findings.reference = reference_of(frame, findings.fit.model);
 }

@@ -52,8 +52,8 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
 Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause,
                          int steps);
 
-/// Every cause and part of the baseline that is not yet in the model, best net gain first; one entry
-/// each. The same for any number of threads; 0: as many as the machine has.
+/// Every cause and part of the baseline that is not yet in the model, best net gain first; one
+/// entry each. The same for any number of threads; 0: as many as the machine has.
 std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads = 0);
 
 /// Misfit beyond noise, in chi square, summed over the equations.

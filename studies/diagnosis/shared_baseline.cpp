@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::ArrayXd;
 
-constexpr double kSeen = 0.01;  // of a spline's height: rows that see less say nothing of it
+constexpr double kSeen = 0.01;         // of a spline's height: rows that see less say nothing of it
 constexpr std::size_t kMostKept = 16;  // a megabyte or two each
 
 /// What columns depend on, as a sum of 128 bits: two sums by different multipliers.
@@ -43,8 +43,7 @@ Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape)
           (frame.firm_spring ? 32.0 : 0.0));
   sum.add(static_cast<double>(frame.rig));
   for (const double value : {frame.torsion_range, frame.rate_range, frame.slow_rate,
-                             frame.speed_range, frame.torque_lag, frame.lowest,
-                             frame.highest}) {
+                             frame.speed_range, frame.torque_lag, frame.lowest, frame.highest}) {
     sum.add(value);
   }
   for (const double value : shape) sum.add(value);

@@ -98,9 +98,9 @@ class Specifier {
     }
     Counterpart counterpart = counterpart_of(cause, model_.coefficients[i]);
     if (!form.rescales && !of_torque_sensor(counterpart)) {
-      counterpart = counterpart_of(
-          cause, constants_.in_torque(seen_, cause, first_equation(frame_, form),
-                                      model_.coefficients[i], reference_));
+      counterpart =
+          counterpart_of(cause, constants_.in_torque(seen_, cause, first_equation(frame_, form),
+                                                     model_.coefficients[i], reference_));
     }
     for (const EffectSpec& effect : counterpart.effects) {
       const std::string why = out_of_range(effect);

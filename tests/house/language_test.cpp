@@ -53,8 +53,8 @@ const std::vector<std::pair<std::string, std::string>>& oblique_phrases() {
   return phrases;
 }
 
-/// Decisions and the changelog tell how things came to be, tests quote what they refuse, and scripts
-/// of CMake are for builders.
+/// Decisions and the changelog tell how things came to be, tests quote what they refuse, and
+/// scripts of CMake are for builders.
 bool is_history_or_test(const std::string& file) {
   return file == "CHANGELOG.md" || file.starts_with("docs/decisions/") ||
          file.starts_with("tests/") || file.ends_with(".cmake") || file.ends_with("CMakeLists.txt");

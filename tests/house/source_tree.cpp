@@ -16,12 +16,13 @@ namespace {
 
 const std::set<std::string> kCode = {".cpp", ".hpp"};
 const std::set<std::string> kCMake = {".cmake", "CMakeLists.txt"};
-const std::set<std::string> kText = {".cpp",      ".hpp",  ".cmake",      "CMakeLists.txt", ".md",
-                                     ".toml",     ".json", ".js",         ".css",           ".html",
-                                     ".mjs",      ".sh",   ".cff",        ".yml",           ".txt",
-                                     ".py",       ".ts",   ".m",          ".lua",           ".in",
-                                     ".sbatch",   "run",   "bootstrap",   "Snakefile",      ".pyi",
-                                     ".clang-tidy", ".clang-format"};
+const std::set<std::string> kText = {".cpp",    ".hpp",        ".cmake",       "CMakeLists.txt",
+                                     ".md",     ".toml",       ".json",        ".js",
+                                     ".css",    ".html",       ".mjs",         ".sh",
+                                     ".cff",    ".yml",        ".txt",         ".py",
+                                     ".ts",     ".m",          ".lua",         ".in",
+                                     ".sbatch", "run",         "bootstrap",    "Snakefile",
+                                     ".pyi",    ".clang-tidy", ".clang-format"};
 const std::set<std::string> kNotOurs = {".git", "build", "out", "node_modules", ".cache"};
 
 bool starts_with_any(const std::string& text, const std::vector<std::string>& beginnings) {

@@ -39,7 +39,7 @@ class AskedToStop : public Program {
 
 TEST_F(AskedToStop, EveryLongCommandStopsWithinTwoSeconds) {
   const std::string out = path("out");
-  const std::vector<std::string> fit = {"fit",  path("set"), "--out",  out + "/fit",
+  const std::vector<std::string> fit = {"fit",    path("set"), "--out",  out + "/fit",
                                         "--rows", "all",       "--model"};
   std::vector<std::string> given = fit;
   given.push_back(path("model.toml"));

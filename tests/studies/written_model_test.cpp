@@ -149,15 +149,14 @@ TEST_P(WrittenModel, LeavesTheLoadsResidual) {
     ASSERT_TRUE(left);
     const ArrayXd difference =
         as_array(left->load.value) - expected.segment(segment.first, segment.count);
-    EXPECT_LT((difference * fit.frame.usable.segment(segment.first, segment.count))
-                  .abs()
-                  .maxCoeff(),
-              1e-9 * fit.frame.torque_range);
+    EXPECT_LT(
+        (difference * fit.frame.usable.segment(segment.first, segment.count)).abs().maxCoeff(),
+        1e-9 * fit.frame.torque_range);
   }
 }
 
-/// Forms that go by the torque measured, in which none of them is hidden here, where the file goes by
-/// that of the model; of a fit both are the same torque.
+/// Forms that go by the torque measured, in which none of them is hidden here, where the file goes
+/// by that of the model; of a fit both are the same torque.
 bool goes_by_measured_torque(const CauseRow& row, Equation equation) {
   return row.id == "backlash" || (row.id == "inertia_torque" && equation == Equation::motor);
 }

@@ -16,7 +16,7 @@ constexpr SanityVerdict kTurns{
 constexpr SanityVerdict kDrives{"check_sign", Severity::error,
                                 "check the sign of the drive's channel against load_angle"};
 
-constexpr double kClear = 10.0;  // standard errors, of white noise
+constexpr double kClear = 10.0;     // standard errors, of white noise
 constexpr double kMostTurns = 6.0;  // of a pendulum
 
 /// What a servo's drive does along the motion, by u = a sin(theta) + b theta'' + c |theta'| + d.

@@ -94,8 +94,8 @@ Check memory() {
   }
   if (too_large.empty()) return check;
   check.health = Health::limited;
-  check.remedy = fmt::format("{} would not fit: close other programs, or give fewer --jobs",
-                             too_large);
+  check.remedy =
+      fmt::format("{} would not fit: close other programs, or give fewer --jobs", too_large);
   return check;
 }
 

@@ -120,18 +120,19 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 CommandRow describe_plan_experiment() {
-  return {.id = "plan-experiment",
-          .group = "Fit and diagnose",
-          .summary =
-              "Which recording to take next, on any rig: to separate causes that cannot be decided, "
-              "and to identify h where a torsion is imposed; writes nothing",
-          .arguments = {{.name = "dataset",
-                         .meaning = "folder of a data set",
-                         .value = "DATASET",
-                         .required = true},
-                        rows_argument()},
-          .example = "flexspline plan-experiment docs/examples/locked-gear",
-          .run = run};
+  return {
+      .id = "plan-experiment",
+      .group = "Fit and diagnose",
+      .summary =
+          "Which recording to take next, on any rig: to separate causes that cannot be decided, "
+          "and to identify h where a torsion is imposed; writes nothing",
+      .arguments = {{.name = "dataset",
+                     .meaning = "folder of a data set",
+                     .value = "DATASET",
+                     .required = true},
+                    rows_argument()},
+      .example = "flexspline plan-experiment docs/examples/locked-gear",
+      .run = run};
 }
 
 }  // namespace flexspline::app
