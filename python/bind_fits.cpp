@@ -47,7 +47,8 @@ Outcome fit(const RecordingSet& set, const std::string& method,
 
 Outcome diagnose(const RecordingSet& set, unsigned threads) {
   const auto result = std::make_shared<Result<studies::Diagnosis>>();
-  interruptible([result, set, threads] { *result = studies::diagnose(set, {}, threads); });
+  interruptible(
+      [result, set, threads] { *result = studies::diagnose(set, {}, {.threads = threads}); });
   const studies::Diagnosis diagnosis = value_of(std::move(*result));
   return {studies::to_json(diagnosis).dump(), diagnosis.model};
 }

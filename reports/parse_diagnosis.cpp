@@ -62,6 +62,7 @@ ShownCause parse_cause(const json& from) {
   cause.delta_bic = number_in(evidence, "delta_bic");
   cause.ablation_ratio = number_in(evidence, "ablation_ratio");
   cause.placebo_ratio = number_in(evidence, "placebo_ratio");
+  cause.stability = number_in(from, "stability");
   return cause;
 }
 
@@ -121,6 +122,8 @@ void parse_numbers(const json& artefact, DiagnosisView& into) {
   into.noise_floor = number_in(holdout, "noise_floor_nm");
   const json& nested = member(holdout, "nested");
   into.nested = nested.is_boolean() && nested.get<bool>();
+  const double folds = number_in(holdout, "folds");
+  into.folds = std::isfinite(folds) ? static_cast<int>(folds) : 0;
 }
 
 template <class Row, class Parse>
@@ -163,6 +166,15 @@ bool DiagnosisView::has_equations() const {
     if (one.equation != series.front().equation) return true;
   }
   return false;
+}
+
+std::string DiagnosisView::how_held_out() const {
+  if (folds > 0) {
+    return "on recordings that the whole search did not have (" + std::to_string(folds) +
+           (folds == 1 ? " outer fold)" : " outer folds)");
+  }
+  return nested ? "on recordings taken away before the search"
+                : "cross-validated, selection not nested,";
 }
 
 DiagnosisView parse_diagnosis(const json& artefact) {

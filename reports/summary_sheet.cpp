@@ -74,14 +74,12 @@ std::string in_unit(const DiagnosisView& view, double value) {
 std::string errors_html(const DiagnosisView& view) {
   if (!std::isfinite(view.before)) return {};
   return fmt::format(
-      "<p>Torque error (rms), {}: {} by the baseline ({}), {} with what was found, {} times as "
+      "<p>Torque error (rms) {}: {} by the baseline ({}), {} with what was found, {} times as "
       "much "
       "(95 %: {} to {}). Noise: {}.</p>\n",
-      view.nested ? "on recordings held out before the search"
-                  : "cross-validated, selection not nested",
-      in_unit(view, view.before), escaped(view.baseline), in_unit(view, view.after),
-      digits(view.ratio, 2), digits(view.ratio_lower, 2), digits(view.ratio_upper, 2),
-      in_unit(view, view.noise_floor));
+      view.how_held_out(), in_unit(view, view.before), escaped(view.baseline),
+      in_unit(view, view.after), digits(view.ratio, 2), digits(view.ratio_lower, 2),
+      digits(view.ratio_upper, 2), in_unit(view, view.noise_floor));
 }
 
 std::string figure_html(const std::filesystem::path& folder, const char* id,

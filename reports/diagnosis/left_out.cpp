@@ -54,13 +54,18 @@ Table evidence_table(const DiagnosisView& view) {
       "evidence",
       "What speaks for each cause. p: that noise alone would score as high. Delta BIC: with "
       "it less without it, negative speaks for it. Hold-out ratio: misfit with it over "
-      "misfit without it, cross-validated, selection not nested.",
-      {{"missing", "", 3}, {"p", "", 2}, {"delta BIC", "", 3}, {"hold-out ratio", "", 3}},
+      "misfit without it, cross-validated, selection not nested. Named in: share of the outer "
+      "folds, each searched anew without its recordings, that name it or an alternative.",
+      {{"missing", "", 3},
+       {"p", "", 2},
+       {"delta BIC", "", 3},
+       {"hold-out ratio", "", 3},
+       {"named in", "%", 2}},
       {}};
   for (const ShownCause& cause : view.causes) {
     const bool tiny = cause.p_value <= kSmallestP;
     table.rows.push_back({words(cause.effect), tiny ? Cell("< 1e-12") : Cell(cause.p_value),
-                          cause.delta_bic, cause.holdout_ratio});
+                          cause.delta_bic, cause.holdout_ratio, 100.0 * cause.stability});
   }
   return without_empty_columns(std::move(table));
 }

@@ -13,13 +13,9 @@ std::string sentence_of(const DiagnosisView& view) {
            " times the noise floor of " + digits(view.noise_floor, 3) + " " + view.rmse_unit +
            ". Nothing was added that could change it.";
   }
-  std::string text =
-      std::string(view.nested ? "On recordings taken away before the search"
-                              : "Cross-validated, selection not nested (each row is judged "
-                                "by fits that did not see it, but the causes were chosen "
-                                "with it in view)") +
-      ", the misfit goes from " + digits(view.before, 3) + " to " + digits(view.after, 3) + " " +
-      view.rmse_unit + ": a factor of " + digits(view.ratio, 2);
+  std::string text = "The misfit " + view.how_held_out() + " goes from " + digits(view.before, 3) +
+                     " to " + digits(view.after, 3) + " " + view.rmse_unit + ": a factor of " +
+                     digits(view.ratio, 2);
   if (std::isfinite(view.ratio_lower) && std::isfinite(view.ratio_upper)) {
     text += " (95 %: " + digits(view.ratio_lower, 2) + " to " + digits(view.ratio_upper, 2) + ")";
   }

@@ -1,10 +1,7 @@
 #include "diagnosis_engine.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include "flexspline/core/in_parallel.hpp"
 #include "quantity_text.hpp"
 
 namespace flexspline::app {
@@ -60,21 +57,25 @@ Result<std::map<std::string, std::string>> engine_words(const Arguments& argumen
                                             {"interest", fmt::format("{}", *interest)}};
 }
 
-Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs) {
+Result<studies::Diagnose> engine_of(const Arguments& arguments) {
   const auto words = engine_words(arguments);
   if (!words) return tl::unexpected(words.error());
-  const std::vector<std::string> held_out = arguments.texts("holdout");
-  if (held_out.empty()) return studies::diagnose_as(*words, jobs);
-  if (!words->empty()) {
+  const studies::DiagnosisSettings settings = {.holdout = arguments.texts("holdout"),
+                                               .nested = !arguments.has("quick")};
+  if (words->empty()) {
+    return [settings](const RecordingSet& recordings, const studies::DiagnosisProgress& progress) {
+      return studies::diagnose(recordings, progress, settings);
+    };
+  }
+  if (!settings.holdout.empty()) {
     return failure(ErrorCode::usage, "--holdout is for --engine rules",
                    "leave it out: every recording is held out by the outer folds");
   }
-  const auto found = static_cast<int>(threads_for(0));
-  const auto threads = static_cast<unsigned>(std::max(1, jobs > 0 ? found / jobs : 1));
-  return [threads, held_out](const RecordingSet& recordings,
-                             const studies::DiagnosisProgress& progress) {
-    return studies::diagnose(recordings, progress, threads, held_out);
-  };
+  if (!settings.nested) {
+    return failure(ErrorCode::usage, "--quick is for --engine rules",
+                   "leave it out: this engine has no other proof");
+  }
+  return studies::diagnose_as(*words, 1);
 }
 
 }  // namespace flexspline::app

@@ -9,10 +9,9 @@ namespace flexspline::app {
 ArgumentInfo engine_argument();
 ArgumentInfo interest_argument();
 
-/// The engine that was asked for; jobs: cases that are diagnosed side by side.
-/// Errors: usage, an engine that there is not, a share out of range or for the engine that has
-/// none.
-Result<studies::Diagnose> engine_of(const Arguments& arguments, int jobs = 1);
+/// The engine that was asked for.
+/// Errors: usage, an engine that there is not, a share out of range, what is for the other engine.
+Result<studies::Diagnose> engine_of(const Arguments& arguments);
 
 /// The same in words, as a trial keeps it; none for the usual one.
 Result<std::map<std::string, std::string>> engine_words(const Arguments& arguments);

@@ -43,13 +43,18 @@ std::string parameters_line(const ordered_json& cause) {
   return fmt::format("\n    {}{}", fmt::join(texts, ", "), more);
 }
 
+std::string share_of_folds(const ordered_json& stability) {
+  return stability.is_number() ? fmt::format("{:.0f} %", 100.0 * stability.get<double>()) : "";
+}
+
 std::string cause_lines(const ordered_json& cause) {
   const std::string size =
       fmt::format("{} {}, {} %", number(cause["size"]), cause["unit"].get<std::string>(),
                   number(100.0 * cause["size_fraction"].get<double>(), "{:.2g}"));
   std::string text = fmt::format(
-      "\n  {:<28} {:<18} {:<7} {:<7}", cause["effect"].get<std::string>(), size,
-      number(cause["probability"], "{:.2f}"), number(cause["evidence"]["holdout_rmse_ratio"]));
+      "\n  {:<28} {:<18} {:<7} {:<9} {:<7}", cause["effect"].get<std::string>(), size,
+      number(cause["probability"], "{:.2f}"), number(cause["evidence"]["holdout_rmse_ratio"]),
+      share_of_folds(cause["stability"]));
   const auto others = cause["alternatives"].get<std::vector<std::string>>();
   if (!others.empty()) text += fmt::format(" or {}", fmt::join(others, " or "));
   return text + parameters_line(cause);
@@ -58,8 +63,8 @@ std::string cause_lines(const ordered_json& cause) {
 std::string causes_text(const ordered_json& json) {
   if (json["causes"].empty()) return "";
   std::string text =
-      fmt::format("\n  {:<28} {:<18} {:<7} {:<7}", "missing from the model, largest first",
-                  "size, of the peak", "weight", "hold-out");
+      fmt::format("\n  {:<28} {:<18} {:<7} {:<9} {:<7}", "missing from the model, largest first",
+                  "size, of the peak", "weight", "hold-out", "folds");
   for (const auto& cause : json["causes"]) text += cause_lines(cause);
   return text;
 }
@@ -75,15 +80,20 @@ std::string where_text(const ordered_json& json) {
   return text;
 }
 
+std::string how_held_out(const ordered_json& holdout) {
+  const int folds = holdout["folds"].get<int>();
+  if (folds > 0) return fmt::format("{} outer fold{} of the search", folds, folds == 1 ? "" : "s");
+  return holdout["nested"].get<bool>() ? "taken away before the search"
+                                       : "cross-validated, selection not nested";
+}
+
 std::string held_out_line(const ordered_json& json) {
   const auto& h = json["holdout"];
   if (!h["rmse_before_nm"].is_number()) return "";
   const auto unit = json["units"]["rmse"].get<std::string>();
   return fmt::format("\n  held out: {} {} before, {} after; noise {} ({})",
                      number(h["rmse_before_nm"]), unit, number(h["rmse_after_nm"]),
-                     number(h["noise_floor_nm"]),
-                     h["nested"].get<bool>() ? "taken away before the search"
-                                             : "cross-validated, selection not nested");
+                     number(h["noise_floor_nm"]), how_held_out(h));
 }
 
 std::string mistaken_text(const ordered_json& json) {

@@ -210,13 +210,7 @@ void account(const Frame& frame, const Decision& d, const Proof& proof,
   to.tried = tried(d);
   to.series = series(frame, proof);
   to.notes.push_back(noise_in_words(d.bench));
-  for (const Cause& c : to.causes) {
-    const double share = stability(proof, c.effect, c.alternatives);
-    if (std::isfinite(share)) {
-      to.notes.push_back(fmt::format("{} is named in {:.0f} % of {} outer folds", c.effect,
-                                     100.0 * share, proof.named.size()));
-    }
-  }
+  for (Cause& c : to.causes) c.stability = stability(proof, c.effect, c.alternatives);
   to.says = in_words(to, d, frame);
 }
 

@@ -16,23 +16,9 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr Eigen::Index kMostRows = 8000;
-constexpr std::size_t kMostFolds = 3;
 constexpr int kPlainPasses = 4;
 constexpr Index kBlock = 25;  // rows that are drawn together
 constexpr int kDraws = 400;
-
-// The first folds hold the most rows; a few say as much as many.
-std::vector<ArrayXd> outer_folds(const Frame& frame) {
-  std::vector<ArrayXd> folds = folds_of(frame);
-  while (folds.size() > kMostFolds) {
-    const ArrayXd last = folds.back();
-    folds.pop_back();
-    const auto least =
-        std::ranges::min_element(folds, {}, [](const ArrayXd& f) { return f.sum(); });
-    *least = least->max(last);
-  }
-  return folds;
-}
 
 // Baseline and causes alone, fitted without a remainder.
 DriveState plain(const Bench& bench, const Fit& fit) {
@@ -107,27 +93,6 @@ double noise_floor(const Bench& bench, Equation equation) {
 
 }  // namespace
 
-RecordingSet without_rows(const RecordingSet& set, const Frame& frame, const ArrayXd& fold) {
-  RecordingSet rest = set;
-  rest.recordings.clear();
-  for (const Recording& recording : set.recordings) {
-    const auto s = std::ranges::find(frame.segments, recording.id, &Segment::id);
-    const ArrayXd held = fold.segment(s->first, s->count);
-    Index first = 0;
-    while (first < s->count && held[first] == 0.0) ++first;
-    if (first == 0) continue;
-    Recording kept = recording;
-    if (first < s->count) {
-      const double until = frame.time[s->first + first];
-      const auto rows = std::ranges::lower_bound(kept.time, until) - kept.time.begin();
-      kept.time.resize(static_cast<std::size_t>(rows));
-      for (auto& [quantity, values] : kept.channels) values.resize(static_cast<std::size_t>(rows));
-    }
-    rest.recordings.push_back(std::move(kept));
-  }
-  return rest;
-}
-
 Result<Proof> prove(const RecordingSet& set, const Frame& frame, const Decision& decision,
                     const Calibration& calibration, unsigned threads) {
   Proof proof;
@@ -163,6 +128,8 @@ Result<Proof> prove(const RecordingSet& set, const Frame& frame, const Decision&
     }
   }
   proof.holdout.noise_floor = at_output * noise_floor(decision.bench, proof.equation);
+  proof.holdout.nested = true;
+  proof.holdout.folds = static_cast<int>(folds.size());
   if (rows == 0.0) return proof;
   proof.holdout.rmse_before = at_output * std::sqrt(sum.before / rows);
   proof.holdout.rmse_after = at_output * std::sqrt(sum.after / rows);

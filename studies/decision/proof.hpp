@@ -13,9 +13,6 @@ struct Proof {
   std::vector<double> cause_ratio;  ///< error with each named cause over the error without it
 };
 
-/// Rows that no fold has: the same recordings, as if the others were not there.
-RecordingSet without_rows(const RecordingSet& set, const Frame& frame, const Eigen::ArrayXd& fold);
-
 /// The whole decision anew in every outer fold, on recordings from which the held-out rows are
 /// deleted; its model, fitted without a remainder, is judged on these rows.
 /// Errors: what makes a fold's recordings unusable.

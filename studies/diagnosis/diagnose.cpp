@@ -7,7 +7,7 @@
 
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/explanation.hpp"
-#include "diagnosis/judged_once.hpp"
+#include "diagnosis/nested_proof.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
 #include "diagnosis/undecided.hpp"
@@ -18,6 +18,7 @@ namespace flexspline::studies {
 namespace {
 
 constexpr Eigen::Index kMostRows = 16000;
+constexpr double kShareOfSearch = 0.35;  // of the time, where folds are searched too
 
 double weighted_level(const Frame& frame, const EquationNoise& noise) {
   double variance = 0.0;
@@ -109,7 +110,6 @@ void name_in_units(Diagnosis& d) {
 
 Result<void> judge_held_out(const RecordingSet& all, const std::vector<std::string>& holdout,
                             const Finding& finding, Diagnosis& d) {
-  if (holdout.empty()) return {};
   auto once = judged_once(all, holdout, finding, kMostRows);
   if (!once) return tl::unexpected(once.error());
   d.cross_validated = d.holdout;
@@ -118,8 +118,33 @@ Result<void> judge_held_out(const RecordingSet& all, const std::vector<std::stri
   return {};
 }
 
+// Recordings that are too few to be searched without a part of them are no failure.
+std::optional<NestedProof> proved_in_folds(const RecordingSet& all, const Finding& finding,
+                                           const Limits& limits, const DiagnosisProgress& progress,
+                                           Diagnosis& d) {
+  if (one_loop(finding.frame)) return std::nullopt;
+  auto nested = nested_proof(all, finding, limits, kMostRows, progress);
+  if (!nested) {
+    d.notes.push_back(
+        fmt::format("nothing is proved in outer folds: {}", nested.error().message()));
+    return std::nullopt;
+  }
+  d.cross_validated = d.holdout;
+  d.holdout = nested->proof;
+  return std::move(*nested);
+}
+
+// Of a whole: what is done after another part of it.
+DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
+  if (!progress) return {};
+  return [progress, from, to](double share, std::string_view stage) {
+    progress(from + share * (to - from), stage);
+  };
+}
+
 Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& progress,
-                            unsigned threads, const std::vector<std::string>& holdout) {
+                            const DiagnosisSettings& settings) {
+  const auto& holdout = settings.holdout;
   if (progress) progress(0.0, "smoothing the motions");
   auto mistaken = data::sanity_of(all);
   if (data::stops_science(mistaken)) return mistaken_diagnosis(all, std::move(mistaken));
@@ -133,15 +158,18 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   if (!frame_of_set) return tl::unexpected(frame_of_set.error());
   if (progress) progress(0.1, "fitting the baseline");
   Limits limits;
-  limits.threads = threads;
-  const auto finding = find_causes(std::move(*frame_of_set), limits, progress);
+  limits.threads = settings.threads;
+  const bool nests = settings.nested && holdout.empty();
+  const double searched = nests ? kShareOfSearch : 0.9;
+  const auto finding =
+      find_causes(std::move(*frame_of_set), limits, part_of(progress, 0.0, searched / 0.9));
   if (!finding) return tl::unexpected(finding.error());
   const auto& [frame, selection, proof] = *finding;
-  if (progress) progress(0.9, "comparing the candidates");
   Diagnosis d;
   d.dataset = all.name;
   d.sha256 = all.sha256;
   d.display = all.display;
+  d.quick = !settings.nested;
   d.mistaken = std::move(mistaken);
   d.notes = all.notes;
   d.notes.insert(d.notes.end(), frame.notes.begin(), frame.notes.end());
@@ -155,14 +183,23 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
                 (shown == Equation::motor ? frame.ratio : 1.0);
   d.holdout = proof.holdout;
   d.series = spelled_series(frame, selection, proof);
-  const auto judged = judge_held_out(all, holdout, *finding, d);
-  if (!judged) return tl::unexpected(judged.error());
+  std::optional<NestedProof> nested;
+  if (nests) {
+    nested = proved_in_folds(all, *finding, limits, part_of(progress, searched, 0.9), d);
+  } else if (!holdout.empty()) {
+    const auto judged = judge_held_out(all, holdout, *finding, d);
+    if (!judged) return tl::unexpected(judged.error());
+  }
+  if (progress) progress(0.9, "comparing the candidates");
   const auto ripple = find_ripple(frame, selection, limits);
   d.verdict = verdict_of(frame, selection, ripple, d, limits);
   auto specification = specify(frame, selection.final.fit.model, remarks_on(selection));
   d.model = std::move(specification.model);
   d.notes.insert(d.notes.end(), specification.notes.begin(), specification.notes.end());
   d.causes = spelled_causes(frame, selection, proof);
+  for (Cause& cause : d.causes) {
+    if (nested) cause.stability = stability_of(*nested, cause);
+  }
   d.mismatch = spelled_mismatch(frame, selection, limits);
   d.confusable = spelled_confusable(frame, selection);
   d.tried = spelled_trials(selection, limits);
@@ -195,9 +232,9 @@ std::string_view name_of(Verdict verdict) {
 }
 
 Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress,
-                           unsigned threads, const std::vector<std::string>& holdout) {
+                           const DiagnosisSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  auto result = diagnosed(recordings, progress, threads, holdout);
+  auto result = diagnosed(recordings, progress, settings);
   if (!result) return result;
   result->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress) progress(1.0, "done");

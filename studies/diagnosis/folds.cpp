@@ -8,6 +8,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
+constexpr std::size_t kMostOuterFolds = 3;
 constexpr double kReach = 1.05;  // of what was fitted: beyond it a law is extrapolated
 
 bool marked(const Frame& frame) {
@@ -88,6 +89,39 @@ ArrayXd held_out(const Frame& frame) {
   ArrayXd rows = ArrayXd::Zero(frame.rows());
   for (const ArrayXd& fold : folds_of(frame)) rows = rows.max(fold);
   return rows;
+}
+
+std::vector<ArrayXd> outer_folds(const Frame& frame) {
+  std::vector<ArrayXd> folds = folds_of(frame);
+  while (folds.size() > kMostOuterFolds) {
+    const ArrayXd last = folds.back();
+    folds.pop_back();
+    const auto least =
+        std::ranges::min_element(folds, {}, [](const ArrayXd& f) { return f.sum(); });
+    *least = least->max(last);
+  }
+  return folds;
+}
+
+RecordingSet without_rows(const RecordingSet& set, const Frame& frame, const ArrayXd& fold) {
+  RecordingSet rest = set;
+  rest.recordings.clear();
+  for (const Recording& recording : set.recordings) {
+    const auto s = std::ranges::find(frame.segments, recording.id, &Segment::id);
+    const ArrayXd held = fold.segment(s->first, s->count);
+    Index first = 0;
+    while (first < s->count && held[first] == 0.0) ++first;
+    if (first == 0) continue;
+    Recording kept = recording;
+    if (first < s->count) {
+      const double until = frame.time[s->first + first];
+      const auto rows = std::ranges::lower_bound(kept.time, until) - kept.time.begin();
+      kept.time.resize(static_cast<std::size_t>(rows));
+      for (auto& [quantity, values] : kept.channels) values.resize(static_cast<std::size_t>(rows));
+    }
+    rest.recordings.push_back(std::move(kept));
+  }
+  return rest;
 }
 
 }  // namespace flexspline::studies

@@ -19,4 +19,11 @@ std::vector<Eigen::ArrayXd> folds_of(const Frame& frame);
 /// All rows that are held out in some fold.
 Eigen::ArrayXd held_out(const Frame& frame);
 
+/// The same rows in three folds at most, for what is dear to do in each.
+std::vector<Eigen::ArrayXd> outer_folds(const Frame& frame);
+
+/// The recordings without the rows of a fold, as if these were not there: whole ones are gone, of
+/// others the end.
+RecordingSet without_rows(const RecordingSet& set, const Frame& frame, const Eigen::ArrayXd& fold);
+
 }  // namespace flexspline::studies

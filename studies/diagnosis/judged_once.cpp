@@ -27,12 +27,6 @@ const Segment* segment_of(const Frame& frame, const std::string& id) {
   return found == frame.segments.end() ? nullptr : &*found;
 }
 
-/// All recordings on one list of rows, those taken away without a say in anything.
-struct Joint {
-  Frame frame;
-  ArrayXd held;  ///< usable rows of the recordings taken away
-};
-
 // Where the search moved a recording's zero, it stays moved.
 void take_zeros(const Frame& from, Frame& to) {
   if (to.zero != from.zero) {
@@ -48,25 +42,33 @@ void take_zeros(const Frame& from, Frame& to) {
   if (from.own_zeros) to.load_angle = to.motor_angle = to.torsion;
 }
 
-Result<Joint> joint_of(const RecordingSet& all, const std::vector<std::string>& ids,
-                       const Frame& searched, Index most_rows) {
+// Of each recording what follows the first row that is held.
+ArrayXd taken_away(const Frame& frame, const ArrayXd& held) {
+  ArrayXd gone = ArrayXd::Zero(frame.rows());
+  for (const Segment& s : frame.segments) {
+    Index first = 0;
+    while (first < s.count && held[s.first + first] == 0.0) ++first;
+    gone.segment(s.first + first, s.count - first).setOnes();
+  }
+  return gone;
+}
+
+Result<Judged> all_rows(const RecordingSet& all, const HeldRows& held_rows, const Frame& searched,
+                        Index most_rows) {
   auto frame = make_frame(all, most_rows);
   if (!frame) return tl::unexpected(frame.error());
-  Joint joint{std::move(*frame), {}};
-  Frame& f = joint.frame;
-  joint.held = ArrayXd::Zero(f.rows());
-  for (const Segment& s : f.segments) {
-    if (!is_one_of(ids, s.id)) continue;
-    joint.held.segment(s.first, s.count) = f.usable.segment(s.first, s.count);
-  }
-  f.usable *= 1.0 - joint.held;
+  Judged judged{std::move(*frame), {}, {}, {}, {}, {}};
+  Frame& f = judged.frame;
+  const ArrayXd held = held_rows(f);
+  judged.held = held * f.usable;
+  f.usable *= 1.0 - taken_away(f, held);
   f.equations = searched.equations;
   f.firm_spring = searched.firm_spring;
   take_zeros(searched, f);
   f.measure_torsion();
   f.speed_range = searched.speed_range;
   f.torque_range = searched.torque_range;
-  return joint;
+  return judged;
 }
 
 /// Noise levels by the segments of another frame; the middle one where it was not measured.
@@ -96,12 +98,12 @@ Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Finding
   return findings.fit;
 }
 
-Frame judged_frame(const Joint& joint) {
-  Frame frame = joint.frame;
-  frame.usable = joint.held;
-  std::erase_if(frame.segments, [&](const Segment& s) {
-    return joint.held.segment(s.first, s.count).sum() == 0.0;
-  });
+/// The recordings that have rows that are judged.
+Frame judged_frame(const Frame& all, const ArrayXd& held) {
+  Frame frame = all;
+  frame.usable = held;
+  std::erase_if(frame.segments,
+                [&](const Segment& s) { return held.segment(s.first, s.count).sum() == 0.0; });
   return frame;
 }
 
@@ -123,31 +125,58 @@ Result<RecordingSet> without(const RecordingSet& set, const std::vector<std::str
   return rest;
 }
 
+Result<Judged> judge(const RecordingSet& all, const HeldRows& held, const Finding& finding,
+                     Equation equation, Index most_rows) {
+  const auto& [searched, selection, known] = finding;
+  if (!searched.has(equation)) {
+    return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
+  }
+  auto judged = all_rows(all, held, searched, most_rows);
+  if (!judged) return judged;
+  const auto before = fitted_again(judged->frame, searched, selection.baseline);
+  if (!before) return tl::unexpected(before.error());
+  const auto after = fitted_again(judged->frame, searched, selection.final);
+  if (!after) return tl::unexpected(after.error());
+  const std::size_t e = index_of(equation);
+  judged->residual_before = before->residual[e];
+  judged->residual_after = after->residual[e];
+  judged->prediction_before = before->prediction[e];
+  judged->prediction_after = after->prediction[e];
+  return judged;
+}
+
+HoldoutProof proof_on(const Frame& all, const ArrayXd& held, Equation equation,
+                      const ArrayXd& before, const ArrayXd& after) {
+  const Frame frame = judged_frame(all, held);
+  HoldoutProof p;
+  p.nested = true;
+  p.rmse_before = rms_on(before, held);
+  p.rmse_after = rms_on(after, held);
+  p.ratio = p.rmse_after / p.rmse_before;
+  p.noise_floor = noise_on(frame, noise_levels(frame, after), held);
+  resample_ratio(frame, held, before, after, p);
+  if (equation != Equation::motor) return p;
+  for (double* value : {&p.rmse_before, &p.rmse_after, &p.noise_floor}) *value *= all.ratio;
+  return p;
+}
+
 Result<JudgedOnce> judged_once(const RecordingSet& all, const std::vector<std::string>& ids,
                                const Finding& finding, Index most_rows) {
-  const auto& [searched, selection, known] = finding;
-  auto joint = joint_of(all, ids, searched, most_rows);
-  if (!joint) return tl::unexpected(joint.error());
-  const auto before = fitted_again(joint->frame, searched, selection.baseline);
-  if (!before) return tl::unexpected(before.error());
-  const auto after = fitted_again(joint->frame, searched, selection.final);
-  if (!after) return tl::unexpected(after.error());
-  const Equation equation = equation_to_prove(searched, selection);
-  const std::size_t e = index_of(equation);
-  const Frame judged = judged_frame(*joint);
-  JudgedOnce once;
-  HoldoutProof& p = once.proof;
-  p.nested = true;
-  p.recordings = ids;
-  p.rmse_before = rms_on(before->residual[e], joint->held);
-  p.rmse_after = rms_on(after->residual[e], joint->held);
-  p.ratio = p.rmse_after / p.rmse_before;
-  p.noise_floor = noise_on(judged, noise_levels(judged, after->residual[e]), joint->held);
-  resample_ratio(judged, joint->held, before->residual[e], after->residual[e], p);
-  once.series = series_of(judged, equation, before->prediction[e], after->prediction[e]);
+  const Equation equation = equation_to_prove(finding.frame, finding.selection);
+  const auto rows_of_ids = [&ids](const Frame& frame) {
+    ArrayXd rows = ArrayXd::Zero(frame.rows());
+    for (const Segment& s : frame.segments) {
+      if (is_one_of(ids, s.id)) rows.segment(s.first, s.count).setOnes();
+    }
+    return rows;
+  };
+  const auto judged = judge(all, rows_of_ids, finding, equation, most_rows);
+  if (!judged) return tl::unexpected(judged.error());
+  const auto& [frame, held, before, after, without_causes, with_causes] = *judged;
+  JudgedOnce once{proof_on(frame, held, equation, before, after),
+                  series_of(judged_frame(frame, held), equation, without_causes, with_causes)};
+  once.proof.recordings = ids;
   for (DiagnosedSeries& series : once.series) series.split = Split::holdout;
-  if (equation != Equation::motor) return once;
-  for (double* value : {&p.rmse_before, &p.rmse_after, &p.noise_floor}) *value *= searched.ratio;
   return once;
 }
 

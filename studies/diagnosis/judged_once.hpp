@@ -1,18 +1,40 @@
 #pragma once
 
+#include <functional>
+
 #include "diagnosis/finding.hpp"
 
 namespace flexspline::studies {
+
+/// Rows of the frame of all recordings that are judged, 1 in each.
+using HeldRows = std::function<Eigen::ArrayXd(const Frame&)>;
+
+/// What a search that never saw them leaves of the rows that were taken away.
+struct Judged {
+  Frame frame;                                         ///< of all recordings
+  Eigen::ArrayXd held;                                 ///< usable rows that were taken away
+  Eigen::ArrayXd residual_before, residual_after;      ///< of the baseline and of what was found
+  Eigen::ArrayXd prediction_before, prediction_after;  ///< all rows
+};
+
+/// Every parameter is fitted once more to the rows that the search had, whose causes and forms
+/// stand, and the others are read off once, in one equation. From its first row on that was taken
+/// away nothing of a recording is fitted. Where mountings have zeros of their own, each recording
+/// that was taken away is counted from where it is unloaded.
+/// Errors: those of fits; numerics, where the search had no such equation.
+Result<Judged> judge(const RecordingSet& all, const HeldRows& held, const Finding& finding,
+                     Equation equation, Eigen::Index most_rows);
+
+/// Errors of these residuals on the rows marked 1, at the output, with the interval of their ratio.
+HoldoutProof proof_on(const Frame& frame, const Eigen::ArrayXd& held, Equation equation,
+                      const Eigen::ArrayXd& before, const Eigen::ArrayXd& after);
 
 /// The recordings of a set but for those of these ids.
 /// Errors: usage, an id that the set has not, or every recording.
 Result<RecordingSet> without(const RecordingSet& set, const std::vector<std::string>& ids);
 
-/// Errors of the baseline and of what was found on recordings that were taken away before anything
-/// was looked for: every parameter is fitted to the others, whose causes and forms stand, and the
-/// rest is read off once. Where mountings have zeros of their own, each of these recordings is
-/// counted from where it is unloaded.
-/// Errors: those of fits.
+/// What was found, judged on recordings that were taken away before anything was looked for.
+/// Errors: of judge.
 struct JudgedOnce {
   HoldoutProof proof;
   std::vector<DiagnosedSeries> series;  ///< of the recordings taken away

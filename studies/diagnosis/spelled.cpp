@@ -116,17 +116,16 @@ std::string proof_in_words(const HoldoutProof& proof, std::size_t causes) {
   if (!std::isfinite(proof.ratio)) {
     return fmt::format("No recording could be held out to prove {}", them);
   }
-  if (proof.nested) {
-    return fmt::format(
-        "With {} the error on recordings taken away before the search falls to {:.0f} % of before, "
-        "{:.3g} times the noise",
-        them, 100.0 * proof.ratio, proof.over_noise());
-  }
-  return fmt::format(
-      "With {} the cross-validated error (selection not nested) falls to {:.0f} % of before, "
-      "{:.3g} "
-      "times the noise",
-      them, 100.0 * proof.ratio, proof.over_noise());
+  const std::string error =
+      proof.folds > 0 ? fmt::format(
+                            "error of the whole search on recordings that it did not have "
+                            "({} outer fold{})",
+                            proof.folds, proof.folds == 1 ? "" : "s")
+      : proof.nested ? "error on recordings taken away before the search"
+                     : "cross-validated error (selection not nested)";
+  const char* change = proof.ratio < 1.0 ? "falls" : "rises";
+  return fmt::format("With {} the {} {} to {:.0f} % of before, {:.3g} times the noise", them, error,
+                     change, 100.0 * proof.ratio, proof.over_noise());
 }
 
 std::string why_immaterial(const Trial& trial, const Limits& limits) {

@@ -98,6 +98,7 @@ Json cause_json(const Diagnosis& diagnosis, const Cause& cause) {
           {"equation", cause.equation},
           {"parameters", std::move(parameters)},
           {"alternatives", cause.alternatives},
+          {"stability", number(cause.stability)},
           {"evidence", evidence_json(cause.evidence)}};
 }
 
@@ -134,7 +135,8 @@ Json holdout_json(const HoldoutProof& proof) {
           {"noise_floor_nm", number(proof.noise_floor)},
           {"over_noise", number(proof.over_noise())},
           {"nested", proof.nested},
-          {"recordings", proof.recordings}};
+          {"recordings", proof.recordings},
+          {"folds", proof.folds}};
 }
 
 Json note_json(const std::string& code, const std::string& says) {
@@ -208,6 +210,7 @@ Json to_json(const Diagnosis& diagnosis) {
   if (diagnosis.next_experiment) {
     json["next_experiment"] = experiment_json(*diagnosis.next_experiment, diagnosis);
   }
+  json["quick"] = diagnosis.quick;
   json["units"] = units_json(diagnosis);
   json["tried"] = list_of(diagnosis.tried, tried_json);
   json["moved"] =

@@ -13,7 +13,7 @@ Diagnose diagnose_as(const std::map<std::string, std::string>& words, int jobs) 
   const auto engine = words.find("engine");
   if (engine == words.end() || engine->second == "rules") {
     return [threads](const RecordingSet& recordings, const DiagnosisProgress& progress) {
-      return diagnose(recordings, progress, threads);
+      return diagnose(recordings, progress, {.threads = threads, .nested = false});
     };
   }
   EvidenceSettings settings;

@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kRewrites =
+    "; FLEXSPLINE_BLESS=1 in the environment of this test rewrites the page";
+
 std::string read(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
@@ -31,20 +34,29 @@ void write(const fs::path& file, const std::string& text) {
   fs::rename(temporary, file);
 }
 
+/// A marked block of a page.
 struct Block {
+  fs::path file;
+  std::string page;
   std::size_t first = std::string::npos;
   std::size_t last = std::string::npos;
+
+  bool is_there() const { return last != std::string::npos; }
+  std::string text() const { return page.substr(first, last - first); }
 };
 
-Block find_block(const std::string& page, std::string_view name) {
+Block find_block(std::string_view page, std::string_view name) {
+  Block block{fs::path(FLEXSPLINE_SOURCE_DIR) / page, ""};
+  block.page = read(block.file);
   const std::string begin = fmt::format("<!-- claim:{} begin -->", name);
-  Block block;
-  block.first = page.find(begin);
+  block.first = block.page.find(begin);
   if (block.first == std::string::npos) return block;
   block.first += begin.size();
-  block.last = page.find(fmt::format("<!-- claim:{} end -->", name), block.first);
+  block.last = block.page.find(fmt::format("<!-- claim:{} end -->", name), block.first);
   return block;
 }
+
+bool to_be_rewritten() { return std::getenv("FLEXSPLINE_BLESS") != nullptr; }
 
 /// The text with what holds no numbers blanked out.
 std::string only_prose(std::string_view text) {
@@ -88,28 +100,34 @@ std::string printed_like(const std::string& token, double value) {
 }
 
 void expect(std::string_view page, std::string_view name, const std::vector<Number>& numbers) {
-  const fs::path file = fs::path(FLEXSPLINE_SOURCE_DIR) / page;
-  std::string text = read(file);
-  const Block block = find_block(text, name);
-  ASSERT_NE(block.last, std::string::npos) << page << " has no block claim:" << name;
-  const auto tokens =
-      numbers_in(std::string_view(text).substr(block.first, block.last - block.first));
+  Block block = find_block(page, name);
+  ASSERT_TRUE(block.is_there()) << page << " has no block claim:" << name;
+  const auto tokens = numbers_in(block.text());
   ASSERT_EQ(tokens.size(), numbers.size())
       << page << ", claim:" << name << " prints another count of numbers than is computed";
-  const bool bless = std::getenv("FLEXSPLINE_BLESS") != nullptr;
   for (std::size_t k = tokens.size(); k-- > 0;) {
     if (std::isnan(numbers[k].value)) continue;
     const std::string computed = printed_like(tokens[k].text, numbers[k].value);
-    if (bless) {
-      text.replace(block.first + tokens[k].at, tokens[k].text.size(), computed);
+    if (to_be_rewritten()) {
+      block.page.replace(block.first + tokens[k].at, tokens[k].text.size(), computed);
     } else {
       EXPECT_EQ(tokens[k].text, computed)
           << page << ", claim:" << name << ", " << numbers[k].what << " is "
-          << fmt::format("{:.6g}", numbers[k].value)
-          << "; FLEXSPLINE_BLESS=1 in the environment of this test rewrites the page";
+          << fmt::format("{:.6g}", numbers[k].value) << kRewrites;
     }
   }
-  if (bless) write(file, text);
+  if (to_be_rewritten()) write(block.file, block.page);
+}
+
+void expect_text(std::string_view page, std::string_view name, const std::string& text) {
+  Block block = find_block(page, name);
+  ASSERT_TRUE(block.is_there()) << page << " has no block claim:" << name;
+  if (to_be_rewritten()) {
+    block.page.replace(block.first, block.last - block.first, text);
+    write(block.file, block.page);
+  } else {
+    EXPECT_EQ(block.text(), text) << page << ", claim:" << name << kRewrites;
+  }
 }
 
 }  // namespace flexspline::claims

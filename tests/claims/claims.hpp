@@ -8,7 +8,7 @@ namespace flexspline::claims {
 
 /// A number that a page prints, computed again.
 struct Number {
-  std::string what;  ///< for the message where they differ
+  std::string what;    ///< for the message where they differ
   double value = 0.0;  ///< NaN: of the machine (seconds), not compared
 };
 
@@ -19,6 +19,10 @@ struct Number {
 /// directly behind a letter is no number; 2e-7 is one, and 1.5 % is 1.5. Constants in the block
 /// count too. With FLEXSPLINE_BLESS set in the environment the block is rewritten instead.
 void expect(std::string_view page, std::string_view name, const std::vector<Number>& numbers);
+
+/// Compares all of a marked block with a text: verdicts, names and numbers of a table's row or
+/// rows.
+void expect_text(std::string_view page, std::string_view name, const std::string& text);
 
 /// The tokens that `expect` takes for numbers, and where they stand.
 struct Token {

@@ -59,7 +59,7 @@ TEST(OuterFolds, LeaveNoRowOfWhatTheyHoldOut) {
   const auto frame = make_frame(set, 16000);
   ASSERT_TRUE(frame.has_value());
   for (const Eigen::ArrayXd& fold : folds_of(*frame)) {
-    const RecordingSet rest = decision::without_rows(set, *frame, fold);
+    const RecordingSet rest = without_rows(set, *frame, fold);
     ASSERT_LT(rest.recordings.size(), set.recordings.size());
     for (const Recording& kept : rest.recordings) {
       const auto s = std::ranges::find(frame->segments, kept.id, &Segment::id);
@@ -69,7 +69,7 @@ TEST(OuterFolds, LeaveNoRowOfWhatTheyHoldOut) {
   Eigen::ArrayXd end = Eigen::ArrayXd::Zero(frame->rows());
   const Segment& first = frame->segments.front();
   end.segment(first.first + first.count - 50, 50).setOnes();
-  const RecordingSet cut = decision::without_rows(set, *frame, end);
+  const RecordingSet cut = without_rows(set, *frame, end);
   const auto same = std::ranges::find(cut.recordings, first.id, &Recording::id);
   ASSERT_NE(same, cut.recordings.end());
   EXPECT_EQ(static_cast<Eigen::Index>(same->time.size()), first.count - 50);

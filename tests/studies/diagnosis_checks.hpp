@@ -12,7 +12,7 @@
 namespace flexspline::studies {
 
 inline Diagnosis diagnosed(const RecordingSet& set) {
-  auto result = diagnose(set);
+  auto result = diagnose(set, {}, {.nested = false});
   EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message());
   return result ? *std::move(result) : Diagnosis{};
 }

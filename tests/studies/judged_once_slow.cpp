@@ -14,7 +14,7 @@ const RecordingSet& bench() {
 }
 
 Diagnosis judged(const RecordingSet& set, const std::vector<std::string>& ids) {
-  auto result = diagnose(set, {}, 0, ids);
+  auto result = diagnose(set, {}, {.holdout = ids});
   EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message());
   return result ? *std::move(result) : Diagnosis{};
 }
@@ -56,13 +56,13 @@ TEST(JudgedOnce, WhatIsTakenAwayHasNoSayInWhatIsFound) {
 }
 
 TEST(JudgedOnce, RefusesWhatIsNotThereAndEverything) {
-  const auto unknown = diagnose(bench(), {}, 0, {"nothing"});
+  const auto unknown = diagnose(bench(), {}, {.holdout = {"nothing"}});
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
   EXPECT_NE(unknown.error().message().find("nothing"), std::string::npos);
   std::vector<std::string> all;
   for (const Recording& recording : bench().recordings) all.push_back(recording.id);
-  const auto everything = diagnose(bench(), {}, 0, all);
+  const auto everything = diagnose(bench(), {}, {.holdout = all});
   ASSERT_FALSE(everything);
   EXPECT_EQ(everything.error().code, ErrorCode::usage);
 }

@@ -104,9 +104,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto set = data::load_dataset(arguments.text("dataset"), *rows);
   if (!set) return tl::unexpected(set.error());
   for (const std::string& note : set->notes) console.say(note);
-  const auto diagnosis = studies::diagnose(*set, [&](double share, std::string_view stage) {
-    console.progress(kOfDiagnosis * share, stage);
-  });
+  const auto diagnosis = studies::diagnose(
+      *set,
+      [&](double share, std::string_view stage) { console.progress(kOfDiagnosis * share, stage); },
+      {.nested = false});
   if (!diagnosis) return tl::unexpected(in_context(diagnosis.error(), "diagnosis"));
   const auto plan = studies::plan_loops(*set, [&](double share) {
     console.progress(kOfDiagnosis + (1.0 - kOfDiagnosis) * share, "fitting with one loop more");

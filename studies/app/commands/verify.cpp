@@ -63,12 +63,14 @@ Again run_study_again(const Arguments& arguments, const studies::RunSettings& se
   return std::nullopt;
 }
 
-/// The recordings that a diagnosis took away before its search.
-Result<std::vector<std::string>> held_out_by(const fs::path& folder) {
+/// How a diagnosis was asked for.
+Result<studies::DiagnosisSettings> settings_of_diagnosis(const fs::path& folder) {
   const auto artefact = data::read_artefact(folder / "diagnosis.json", studies::kDiagnosisSchema);
   if (!artefact) return tl::unexpected(artefact.error());
-  return artefact->value(nlohmann::ordered_json::json_pointer("/holdout/recordings"),
-                         std::vector<std::string>{});
+  return studies::DiagnosisSettings{
+      .holdout = artefact->value(nlohmann::ordered_json::json_pointer("/holdout/recordings"),
+                                 std::vector<std::string>{}),
+      .nested = !artefact->value("quick", false)};
 }
 
 Again diagnose_again(const Arguments& arguments, const fs::path& again) {
@@ -81,9 +83,9 @@ Again diagnose_again(const Arguments& arguments, const fs::path& again) {
   const fs::path folder = arguments.text("dir");
   auto other = studies::other_data(folder, {{"recordings", recordings->sha256}});
   if (!other.empty()) return studies::verify_on_other_data(folder, std::move(other));
-  const auto holdout = held_out_by(folder);
-  if (!holdout) return tl::unexpected(holdout.error());
-  const auto diagnosis = studies::diagnose(*recordings, {}, 0, *holdout);
+  const auto asked = settings_of_diagnosis(folder);
+  if (!asked) return tl::unexpected(asked.error());
+  const auto diagnosis = studies::diagnose(*recordings, {}, *asked);
   if (!diagnosis) return tl::unexpected(diagnosis.error());
   return data::write_artefact(again / "diagnosis.json", diagnosis_artefact(*diagnosis))
       .map([]() -> std::optional<studies::Verification> { return std::nullopt; });

@@ -35,6 +35,7 @@ struct ShownCause {
   double delta_bic = kAbsent;
   double ablation_ratio = kAbsent;
   double placebo_ratio = kAbsent;
+  double stability = kAbsent;  ///< share of the outer folds that name it
 };
 
 struct ShownConfusable {
@@ -88,6 +89,8 @@ struct DiagnosisView {
   double ratio_upper = kAbsent;
   double noise_floor = kAbsent;
   bool nested = false;  ///< held out before the search
+  int folds = 0;        ///< outer ones, each searched anew; 0: none
+
   std::vector<ShownMismatch> mismatch;
   std::vector<ShownCause> causes;
   std::vector<ShownConfusable> confusable;
@@ -101,6 +104,8 @@ struct DiagnosisView {
   bool has_model = false;                       ///< that simulate and fit take
 
   bool adequate() const { return verdict == "adequate"; }
+  /// "on recordings taken away before the search": of which the misfit before and after is.
+  std::string how_held_out() const;
   /// Whether more than one equation of the drive was looked at.
   bool has_equations() const;
 };

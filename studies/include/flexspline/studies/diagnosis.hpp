@@ -68,6 +68,7 @@ struct Cause {
   std::vector<CauseParameter> parameters;
   std::vector<std::string> alternatives;  ///< at most two that explain the same signal as well
   CauseEvidence evidence;
+  double stability = kNotComputed;  ///< share of the outer folds that name it or an alternative
 };
 
 /// Two effects that look alike on these recordings after the baseline has taken what it can.
@@ -89,8 +90,8 @@ struct TriedCandidate {
 };
 
 /// Errors on recordings held out. Not nested: every row is judged by fits that did not see it, but
-/// the causes were chosen with it in view. Nested: the recordings were taken away before the
-/// search.
+/// the causes were chosen with it in view. Nested: the search was made without them, of recordings
+/// that were taken away once, or anew in every outer fold.
 struct HoldoutProof {
   double rmse_before = kNotComputed;  ///< in the effort of the recordings, SI
   double rmse_after = kNotComputed;
@@ -99,7 +100,8 @@ struct HoldoutProof {
   double ci95_upper = kNotComputed;
   double noise_floor = kNotComputed;
   bool nested = false;
-  std::vector<std::string> recordings{};  ///< held out, where nested
+  std::vector<std::string> recordings{};  ///< taken away once, where nested
+  int folds = 0;                          ///< outer ones, where nested and nothing was taken away
 
   double over_noise() const { return rmse_after / noise_floor; }
 };
@@ -147,7 +149,7 @@ struct Diagnosis {
   std::vector<ParameterMove> moved;
   HoldoutProof holdout;
   std::optional<HoldoutProof>
-      cross_validated;  ///< of the other recordings, where holdout is nested
+      cross_validated;  ///< not nested, of the recordings searched, where holdout is nested
   std::optional<NextExperiment> next_experiment;  ///< the first of experiments
   std::vector<NextExperiment> experiments;        ///< one a pair of causes, the largest first
   std::vector<DiagnosedSeries> series;
@@ -157,20 +159,29 @@ struct Diagnosis {
   /// decided.
   std::optional<RigModel> model;
   DisplayUnits display;
+  bool quick = false;  ///< no outer folds were asked for
   double seconds = kNotComputed;
 };
 
 /// Told of each stage as it begins, for a progress line: share done in [0, 1] and what it is.
 using DiagnosisProgress = std::function<void(double, std::string_view)>;
 
+struct DiagnosisSettings {
+  unsigned threads = 0;  ///< 0: as many as the machine has
+  /// Ids of recordings that are taken away before anything is looked for, and on which the final
+  /// model is judged once.
+  std::vector<std::string> holdout{};
+  /// Where nothing is taken away: the whole search once more in every outer fold, without the rows
+  /// that it is judged on. Without it the proof is cross-validated, the selection not nested.
+  bool nested = true;
+};
+
 /// Locates where the baseline of the rig and the recordings differ, names what was left out, models
 /// it and proves it on recordings held out. It uses the recordings, the bench's constants and the
 /// catalogue of effects; no names, and nothing of the order in which recordings or columns stand.
-/// The result does not depend on the number of threads; 0: as many as the machine has.
-/// holdout: ids of recordings that are taken away before anything is looked for, and on which the
-/// final model is judged once.
+/// The result does not depend on the number of threads.
 /// Errors: recordings that are not usable (data), an id that does not exist (usage), numerics.
 Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress = {},
-                           unsigned threads = 0, const std::vector<std::string>& holdout = {});
+                           const DiagnosisSettings& settings = {});
 
 }  // namespace flexspline::studies
