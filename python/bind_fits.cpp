@@ -45,10 +45,11 @@ Outcome fit(const RecordingSet& set, const std::string& method,
   return {data::to_json(estimate, set.display).dump(), std::move(model)};
 }
 
-Outcome diagnose(const RecordingSet& set, unsigned threads) {
+Outcome diagnose(const RecordingSet& set, unsigned threads, std::vector<std::string> holdout,
+                 bool nested) {
   const auto result = std::make_shared<Result<studies::Diagnosis>>();
-  interruptible(
-      [result, set, threads] { *result = studies::diagnose(set, {}, {.threads = threads}); });
+  const studies::DiagnosisSettings settings = {threads, std::move(holdout), nested};
+  interruptible([result, set, settings] { *result = studies::diagnose(set, {}, settings); });
   const studies::Diagnosis diagnosis = value_of(std::move(*result));
   return {studies::to_json(diagnosis).dump(), diagnosis.model};
 }
@@ -64,7 +65,8 @@ std::vector<std::string> estimator_ids() {
 void bind_fits(py::module_& module) {
   module.def("fit", &fit, py::arg("recordings"), py::arg("estimator"), py::arg("train"),
              py::arg("numbers"), py::arg("words"));
-  module.def("diagnose", &diagnose, py::arg("recordings"), py::arg("threads"));
+  module.def("diagnose", &diagnose, py::arg("recordings"), py::arg("threads"),
+             py::arg("holdout"), py::arg("nested"));
   module.def("estimators", &estimator_ids);
 }
 

@@ -9,10 +9,11 @@ namespace {
 /// zlib's largest window, written with the header and trailer of gzip.
 constexpr int kGzipWindow = 15 + 16;
 constexpr int kMemoryLevel = 8;
+constexpr int kEffort = 6;  // 9 takes twice as long for 1 % less
 
 std::string gzipped(std::string_view text) {
   z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,
+  if (deflateInit2(&stream, kEffort, Z_DEFLATED, kGzipWindow, kMemoryLevel,
                    Z_DEFAULT_STRATEGY) != Z_OK) {
     return {};
   }

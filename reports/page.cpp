@@ -164,7 +164,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-std::string page_of(const Document& document) {
+std::string page_of(const Document& document, std::string_view figures) {
   std::string html = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
   html += "<meta name=\"color-scheme\" content=\"light dark\">\n";
@@ -183,7 +183,7 @@ std::string page_of(const Document& document) {
     if (&section == &document.sections.front()) html += links_html(document.sections);
   }
   html += "</main>\n<script type=\"application/gzip\" id=\"figures\">" +
-          packed(figures_json(document)) + "</script>\n<script>" + page_script() +
+          packed(figures) + "</script>\n<script>" + page_script() +
           "</script>\n</body>\n</html>\n";
   return html;
 }

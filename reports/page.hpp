@@ -8,8 +8,8 @@
 namespace flexspline::reports {
 
 /// One HTML page that needs nothing else: text and tables as markup, figures as data with the
-/// program that draws them.
-std::string page_of(const Document& document);
+/// program that draws them. figures: figures_json(document).
+std::string page_of(const Document& document, std::string_view figures);
 
 /// Text as HTML shows it.
 std::string escaped(std::string_view text);

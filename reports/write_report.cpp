@@ -3,6 +3,7 @@
 #include <set>
 
 #include "document_json.hpp"
+#include "flexspline/core/in_parallel.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/reports/diagnosis_view.hpp"
 #include "flexspline/reports/report.hpp"
@@ -128,19 +129,28 @@ Result<WrittenReport> write_report(const fs::path& folder) {
   if (!report) return tl::unexpected(in_context(report.error(), "report"));
   const Document& document = report->document;
   const fs::path page = folder / report->page;
+  const fs::path pictures = folder / "report" / "figures";
+  const std::string figures = figures_json(document);
+  std::string html;
+  Result<void> others, drawn;
+  // Node draws while the rest is put together; the page is written when all it links to is there.
+  in_parallel(2, 2, [&](std::size_t part) {
+    if (part == 0) {
+      drawn = write_static_figures(pictures, figures);
+      return;
+    }
+    html = page_of(document, figures);
+    others = write_tables(folder / "tables", document).and_then([&] {
+      return write_file(folder / "report" / "report.json", report_json(document));
+    });
+  });
   const auto written =
-      write_tables(folder / "tables", document)
-          .and_then(
-              [&] { return write_file(folder / "report" / "report.json", report_json(document)); })
-          .and_then([&] {
-            return write_static_figures(folder / "report" / "figures", figures_json(document));
-          })
+      others.and_then([&] { return drawn; })
           .and_then([&]() -> Result<void> {
             if (!report->summary) return {};
-            return write_file(page.parent_path() / kSummary,
-                              report->summary(folder / "report" / "figures"));
+            return write_file(page.parent_path() / kSummary, report->summary(pictures));
           })
-          .and_then([&] { return write_file(page, page_of(document)); });
+          .and_then([&] { return write_file(page, html); });
   if (!written) return tl::unexpected(in_context(written.error(), "report"));
   return WrittenReport{page, report->left_out};
 }

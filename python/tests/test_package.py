@@ -104,6 +104,11 @@ def test_nothing_is_missing_from_a_gear_of_the_baseline():
     diagnosis = flexspline.diagnose(gear(noise=0.05), threads=2)
     assert diagnosis.verdict == "adequate"
     assert diagnosis.causes == []
+    assert diagnosis.artefact["holdout"]["nested"]
+    quick = flexspline.diagnose(gear(noise=0.05), quick=True)
+    assert not quick.artefact["holdout"]["nested"]
+    with pytest.raises(flexspline.Error, match="there is no recording 'nothing'"):
+        flexspline.diagnose(gear(noise=0.05), holdout=["nothing"])
 
 
 def test_errors_say_what_is_wrong(tmp_path):

@@ -12,6 +12,7 @@
 
 #include "command.hpp"
 #include "flexspline/core/nearest_name.hpp"
+#include "heap.hpp"
 #include "stop_signal.hpp"
 #include "version.hpp"
 #include "work_progress.hpp"
@@ -195,6 +196,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace flexspline::app
 
 int main(int argc, char** argv) {
+  flexspline::app::keep_freed_memory();
   flexspline::app::keep_standard_files_apart();
   std::signal(SIGPIPE, SIG_IGN);  // a write that fails says so
   flexspline::app::catch_stop_signals();

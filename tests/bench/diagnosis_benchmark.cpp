@@ -16,7 +16,7 @@ void diagnosis(benchmark::State& state, Rig rig, std::vector<data::HiddenEffect>
   const auto hidden = studies::conceal(plan);
   if (!hidden) return state.SkipWithError(hidden.error().message().c_str());
   for (auto _ : state) {
-    const auto diagnosed = studies::diagnose(hidden->recordings);
+    const auto diagnosed = studies::diagnose(hidden->recordings, {}, {.nested = false});
     if (!diagnosed) state.SkipWithError(diagnosed.error().message().c_str());
   }
 }

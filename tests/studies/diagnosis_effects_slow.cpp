@@ -53,7 +53,7 @@ TEST_P(EffectOfADiagnosis, HasTheParameterOfTheBench) {
   const auto made =
       data::run_hidden_bench(data::draw_hidden_bench(one.rig, 4), {{one.hidden, 0.06}});
   ASSERT_TRUE(made) << made.error().message();
-  const auto diagnosis = diagnose(made->measured);
+  const auto diagnosis = diagnose(made->measured, {}, {.nested = false});
   ASSERT_TRUE(diagnosis) << diagnosis.error().message();
   for (const std::string& note : diagnosis->notes) SCOPED_TRACE(note);
   ASSERT_TRUE(diagnosis->model);

@@ -44,7 +44,7 @@ Diagnosed diagnosed(const ModelCase& one) {
   auto made = data::run_hidden_bench(data::draw_hidden_bench(one.rig, one.seed), hidden);
   EXPECT_TRUE(made) << (made ? "" : made.error().message());
   if (!made) return {};
-  auto diagnosis = diagnose(made->measured);
+  auto diagnosis = diagnose(made->measured, {}, {.nested = false});
   EXPECT_TRUE(diagnosis) << (diagnosis ? "" : diagnosis.error().message());
   return {std::move(made->measured), diagnosis ? *std::move(diagnosis) : Diagnosis{}};
 }
