@@ -1,7 +1,7 @@
 #include "journal_line.hpp"
 
 #include <fmt/format.h>
-#include <boost/crc.hpp>
+#include <zlib.h>
 
 namespace flexspline {
 namespace {
@@ -9,9 +9,8 @@ namespace {
 constexpr std::size_t kSum = 8;  // hex digits of a checksum
 
 std::string sum_of(std::string_view text) {
-  boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
-  return fmt::format("{:08x}", crc.checksum());
+  const auto* bytes = reinterpret_cast<const Bytef*>(text.data());
+  return fmt::format("{:08x}", crc32_z(0, bytes, text.size()));
 }
 
 }  // namespace

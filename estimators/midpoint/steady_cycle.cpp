@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace flexspline::estimators {
 namespace {
 
 constexpr int kPhases = 1024;
-constexpr int kHalvings = 60;
+constexpr std::uintmax_t kMostEvaluations = 100;
+constexpr int kBits = 50;        // of a crossing
 constexpr double kBlend = 0.25;  // of a cycle, in which a reconstruction passes into its series
 constexpr double kTurn = 0.02;   // of the range: a smaller way back is no turn
 
@@ -41,19 +44,23 @@ double SteadyCycle::wrapped(double t) const {
 
 Result<void> SteadyCycle::find_turns(const std::string& id) {
   const double step = period_ / kPhases;
-  for (int k = 0; k < kPhases; ++k) {
+  double low = motion(window_), high = low;
+  crest_ = trough_ = window_;
+  for (int k = 1; k < kPhases; ++k) {
     const double t = window_ + k * step;
-    if (k == 0 || motion(t) > motion(crest_)) crest_ = t;
-    if (k == 0 || motion(t) < motion(trough_)) trough_ = t;
+    const double x = motion(t);
+    if (x > high) high = x, crest_ = t;
+    if (x < low) low = x, trough_ = t;
   }
   crest_after_trough_ = crest_ + (crest_ < trough_ ? period_ : 0.0);
   trough_after_crest_ = trough_ + (trough_ < crest_ ? period_ : 0.0);
-  const double allowed = kTurn * (highest() - lowest());
+  const double allowed = kTurn * (high - low);
   const auto monotone = [&](double from, double to, double sign) {
     double furthest = sign * motion(from);
     for (double t = from; t < to; t += step) {
-      furthest = std::max(furthest, sign * motion(t));
-      if (furthest - sign * motion(t) > allowed) return false;
+      const double reached = sign * motion(t);
+      furthest = std::max(furthest, reached);
+      if (furthest - reached > allowed) return false;
     }
     return true;
   };
@@ -68,12 +75,13 @@ Result<void> SteadyCycle::find_turns(const std::string& id) {
 }
 
 double SteadyCycle::crossing(double from, double to, double x) const {
-  const bool rises = motion(to) > motion(from);
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (from + to);
-    ((motion(middle) < x) == rises ? from : to) = middle;
-  }
-  return 0.5 * (from + to);
+  const auto beyond = [this, x](double t) { return motion(t) - x; };
+  const double at_from = beyond(from), at_to = beyond(to);
+  if ((at_from < 0.0) == (at_to < 0.0)) return std::abs(at_from) < std::abs(at_to) ? from : to;
+  std::uintmax_t most = kMostEvaluations;
+  const auto [before, after] = boost::math::tools::toms748_solve(
+      beyond, from, to, at_from, at_to, boost::math::tools::eps_tolerance<double>(kBits), most);
+  return 0.5 * (before + after);
 }
 
 double SteadyCycle::effort(double t) const {

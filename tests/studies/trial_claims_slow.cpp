@@ -61,7 +61,7 @@ std::vector<ScoredCase> scored(const std::string& name, int cases) {
 }
 
 TEST(TrialScores, OnTheVirtualBenchAreWhatThePageSays) {
-  claims::expect_text("docs/diagnosis.md", "trial-scores", table_of(scored("trial.toml", 160)));
+  claims::expect_text("docs/diagnosis.md", "trial-scores", table_of(scored("trial.toml", 80)));
 }
 
 TEST(TrialScores, OnWidenedBenchesAreWhatThePageSays) {
