@@ -156,13 +156,13 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   }
   auto frame_of_set = make_frame(rest ? *rest : all, kMostRows);
   if (!frame_of_set) return tl::unexpected(frame_of_set.error());
-  if (progress) progress(0.1, "fitting the baseline");
   Limits limits;
   limits.threads = settings.threads;
   const bool nests = settings.nested && holdout.empty();
   const double searched = nests ? kShareOfSearch : 0.9;
-  const auto finding =
-      find_causes(std::move(*frame_of_set), limits, part_of(progress, 0.0, searched / 0.9));
+  const auto searching = part_of(progress, 0.0, searched / 0.9);
+  if (searching) searching(0.1, "fitting the baseline");
+  const auto finding = find_causes(std::move(*frame_of_set), limits, searching);
   if (!finding) return tl::unexpected(finding.error());
   const auto& [frame, selection, proof] = *finding;
   Diagnosis d;

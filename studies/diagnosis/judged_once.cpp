@@ -53,13 +53,9 @@ ArrayXd taken_away(const Frame& frame, const ArrayXd& held) {
   return gone;
 }
 
-Result<Judged> all_rows(const RecordingSet& all, const HeldRows& held_rows, const Frame& searched,
-                        Index most_rows) {
-  auto frame = make_frame(all, most_rows);
-  if (!frame) return tl::unexpected(frame.error());
-  Judged judged{std::move(*frame), {}, {}, {}, {}, {}};
+Judged all_rows(Frame whole, const ArrayXd& held, const Frame& searched) {
+  Judged judged{std::move(whole), {}, {}, {}, {}, {}};
   Frame& f = judged.frame;
-  const ArrayXd held = held_rows(f);
   judged.held = held * f.usable;
   f.usable *= 1.0 - taken_away(f, held);
   f.equations = searched.equations;
@@ -125,23 +121,21 @@ Result<RecordingSet> without(const RecordingSet& set, const std::vector<std::str
   return rest;
 }
 
-Result<Judged> judge(const RecordingSet& all, const HeldRows& held, const Finding& finding,
-                     Equation equation, Index most_rows) {
+Result<Judged> judge(Frame whole, const ArrayXd& held, const Finding& finding, Equation equation) {
   const auto& [searched, selection, known] = finding;
   if (!searched.has(equation)) {
     return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
   }
-  auto judged = all_rows(all, held, searched, most_rows);
-  if (!judged) return judged;
-  const auto before = fitted_again(judged->frame, searched, selection.baseline);
+  Judged judged = all_rows(std::move(whole), held, searched);
+  const auto before = fitted_again(judged.frame, searched, selection.baseline);
   if (!before) return tl::unexpected(before.error());
-  const auto after = fitted_again(judged->frame, searched, selection.final);
+  const auto after = fitted_again(judged.frame, searched, selection.final);
   if (!after) return tl::unexpected(after.error());
   const std::size_t e = index_of(equation);
-  judged->residual_before = before->residual[e];
-  judged->residual_after = after->residual[e];
-  judged->prediction_before = before->prediction[e];
-  judged->prediction_after = after->prediction[e];
+  judged.residual_before = before->residual[e];
+  judged.residual_after = after->residual[e];
+  judged.prediction_before = before->prediction[e];
+  judged.prediction_after = after->prediction[e];
   return judged;
 }
 
@@ -163,14 +157,13 @@ HoldoutProof proof_on(const Frame& all, const ArrayXd& held, Equation equation,
 Result<JudgedOnce> judged_once(const RecordingSet& all, const std::vector<std::string>& ids,
                                const Finding& finding, Index most_rows) {
   const Equation equation = equation_to_prove(finding.frame, finding.selection);
-  const auto rows_of_ids = [&ids](const Frame& frame) {
-    ArrayXd rows = ArrayXd::Zero(frame.rows());
-    for (const Segment& s : frame.segments) {
-      if (is_one_of(ids, s.id)) rows.segment(s.first, s.count).setOnes();
-    }
-    return rows;
-  };
-  const auto judged = judge(all, rows_of_ids, finding, equation, most_rows);
+  auto whole = make_frame(all, most_rows);
+  if (!whole) return tl::unexpected(whole.error());
+  ArrayXd rows = ArrayXd::Zero(whole->rows());
+  for (const Segment& s : whole->segments) {
+    if (is_one_of(ids, s.id)) rows.segment(s.first, s.count).setOnes();
+  }
+  const auto judged = judge(std::move(*whole), rows, finding, equation);
   if (!judged) return tl::unexpected(judged.error());
   const auto& [frame, held, before, after, without_causes, with_causes] = *judged;
   JudgedOnce once{proof_on(frame, held, equation, before, after),

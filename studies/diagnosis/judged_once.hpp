@@ -1,13 +1,8 @@
 #pragma once
 
-#include <functional>
-
 #include "diagnosis/finding.hpp"
 
 namespace flexspline::studies {
-
-/// Rows of the frame of all recordings that are judged, 1 in each.
-using HeldRows = std::function<Eigen::ArrayXd(const Frame&)>;
 
 /// What a search that never saw them leaves of the rows that were taken away.
 struct Judged {
@@ -18,12 +13,13 @@ struct Judged {
 };
 
 /// Every parameter is fitted once more to the rows that the search had, whose causes and forms
-/// stand, and the others are read off once, in one equation. From its first row on that was taken
-/// away nothing of a recording is fitted. Where mountings have zeros of their own, each recording
-/// that was taken away is counted from where it is unloaded.
+/// stand, and the others are read off once, in one equation. whole: the frame of all recordings, as
+/// it was made; held: 1 in each row that was taken away. From its first such row on nothing of a
+/// recording is fitted. Where mountings have zeros of their own, each recording that was taken away
+/// is counted from where it is unloaded.
 /// Errors: those of fits; numerics, where the search had no such equation.
-Result<Judged> judge(const RecordingSet& all, const HeldRows& held, const Finding& finding,
-                     Equation equation, Eigen::Index most_rows);
+Result<Judged> judge(Frame whole, const Eigen::ArrayXd& held, const Finding& finding,
+                     Equation equation);
 
 /// Errors of these residuals on the rows marked 1, at the output, with the interval of their ratio.
 HoldoutProof proof_on(const Frame& frame, const Eigen::ArrayXd& held, Equation equation,

@@ -41,8 +41,7 @@ Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
     searched.named.insert(searched.named.end(), cause.alternatives.begin(),
                           cause.alternatives.end());
   }
-  auto judged = judge(
-      all, [&fold](const Frame&) { return fold; }, *finding, equation, most_rows);
+  auto judged = judge(whole, fold, *finding, equation);
   if (!judged) return tl::unexpected(judged.error());
   searched.judged = std::move(*judged);
   return searched;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,6 +23,8 @@ struct Row {
   std::string claim;  ///< of its row in the page
   std::string set;
   std::vector<std::string> holdout{};  ///< taken away before the search
+  std::string told{};                  ///< claim of a sentence that tells parameters
+  std::vector<std::string> parameters{};
 };
 
 void PrintTo(const Row& row, std::ostream* out) { *out << row.claim; }
@@ -77,6 +80,18 @@ std::string name_of_test(const testing::TestParamInfo<Row>& info) {
   return name;
 }
 
+/// "backlash half_gap" in SI, but angles in degrees.
+claims::Number number_of(const Diagnosis& d, const std::string& name) {
+  for (const Cause& cause : d.causes) {
+    for (const CauseParameter& one : cause.parameters) {
+      if (cause.effect + " " + one.name != name) continue;
+      return {name, std::abs(one.value) * (one.unit == "rad" ? 180.0 / std::numbers::pi : 1.0)};
+    }
+  }
+  ADD_FAILURE() << "there is no " << name;
+  return {name, 0.0};
+}
+
 TEST_P(Diagnosed, AsThePageSays) {
   const Diagnosis d = diagnosis();
   ASSERT_TRUE(d.cross_validated);
@@ -85,19 +100,28 @@ TEST_P(Diagnosed, AsThePageSays) {
       fmt::format("`{}` | {} | {} | {} | {} | {}", name_of(d.verdict), causes_of(d, true),
                   printed(d.holdout.rmse_before), printed(d.cross_validated->rmse_after),
                   printed(d.holdout.rmse_after), printed(d.holdout.noise_floor)));
+  std::vector<claims::Number> numbers;
+  for (const std::string& name : GetParam().parameters) numbers.push_back(number_of(d, name));
+  if (!numbers.empty()) claims::expect(kPage, GetParam().told, numbers);
 }
 
-INSTANTIATE_TEST_SUITE_P(RealRecordings, Diagnosed,
-                         testing::Values(Row{"real-gear", "cycloidal-onyx"},
-                                         Row{"real-preload-1", "cycloidal-onyx-split-p1"},
-                                         Row{"real-preload-6", "cycloidal-onyx-split-p6"},
-                                         Row{"real-preload-12", "cycloidal-onyx-split-p12"},
-                                         Row{"real-damper", "band-damper"},
-                                         Row{"real-joint-1", "iiwa-j1"},
-                                         Row{"real-joint-4", "iiwa-j4"},
-                                         Row{"real-joint-6", "iiwa-j6"},
-                                         Row{"real-servo", "xl330-pendulum"}),
-                         name_of_test);
+const std::vector<Row> kDiagnosed = {
+    {"real-gear", "cycloidal-onyx", {}, "gear-gap", {"backlash half_gap"}},
+    {"real-preload-1", "cycloidal-onyx-split-p1"},
+    {"real-preload-6", "cycloidal-onyx-split-p6"},
+    {"real-preload-12", "cycloidal-onyx-split-p12"},
+    {"real-damper", "band-damper", {}, "damper-directions", {"direction_asymmetry difference"}},
+    {"real-joint-1",
+     "iiwa-j1",
+     {},
+     "joint-1-delay",
+     {"sensor_delay delay", "sensor_delay time_constant", "inertia_torque inertia",
+      "inertia_torque time_constant"}},
+    {"real-joint-4", "iiwa-j4"},
+    {"real-joint-6", "iiwa-j6"},
+    {"real-servo", "xl330-pendulum"}};
+
+INSTANTIATE_TEST_SUITE_P(RealRecordings, Diagnosed, testing::ValuesIn(kDiagnosed), name_of_test);
 
 TEST_P(TakenAway, LeavesWhatThePageSays) {
   const Diagnosis d = diagnosis();
@@ -107,10 +131,10 @@ TEST_P(TakenAway, LeavesWhatThePageSays) {
                                   printed(d.holdout.rmse_before), printed(d.holdout.rmse_after)));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    RealRecordings, TakenAway,
-    testing::Values(Row{"strict-joint-1", "iiwa-j1", {"j1-vel_p25", "j1-vel_p5"}}),
-    name_of_test);
+INSTANTIATE_TEST_SUITE_P(RealRecordings, TakenAway,
+                         testing::Values(Row{
+                             "strict-joint-1", "iiwa-j1", {"j1-vel_p25", "j1-vel_p5"}}),
+                         name_of_test);
 
 }  // namespace
 }  // namespace flexspline::studies

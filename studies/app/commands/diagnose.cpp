@@ -101,7 +101,8 @@ CommandRow describe_diagnose() {
                          .repeats = true},
                         {.name = "--quick",
                          .meaning = "no search in outer folds: a third of the time, and a proof "
-                                    "that is cross-validated, its selection not nested"},
+                                    "that is cross-validated, its selection not nested",
+                         .value = ""},
                         engine_argument(),
                         interest_argument(),
                         rows_argument(),
