@@ -65,7 +65,7 @@ TEST(TrialScores, OnTheVirtualBenchAreWhatThePageSays) {
 }
 
 TEST(TrialScores, OnWidenedBenchesAreWhatThePageSays) {
-  claims::expect_text("docs/trials.md", "wide-scores", table_of(scored("wide.toml", 60)));
+  claims::expect_text("docs/trials.md", "wide-scores", table_of(scored("wide.toml", 40)));
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct Need {
   double gibibytes;
 };
 
-constexpr Need kNeeds[] = {{"a diagnosis", 0.2}, {"the study of the paper", 0.4}};
+constexpr Need kNeeds[] = {{"a diagnosis", 0.4}, {"the study of the paper", 0.4}};
 
 /// What can be had without swapping: what is free, and what caches give back.
 double available_gibibytes() {
