@@ -7,6 +7,7 @@
 
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/explanation.hpp"
+#include "diagnosis/folds.hpp"
 #include "diagnosis/nested_proof.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
@@ -18,7 +19,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr Eigen::Index kMostRows = 16000;
-constexpr double kShareOfSearch = 0.35;  // of the time, where folds are searched too
 
 double weighted_level(const Frame& frame, const EquationNoise& noise) {
   double variance = 0.0;
@@ -159,7 +159,9 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   Limits limits;
   limits.threads = settings.threads;
   const bool nests = settings.nested && holdout.empty();
-  const double searched = nests ? kShareOfSearch : 0.9;
+  // Each fold's search is taken for as long as that in all recordings.
+  const auto searches = 1 + (nests ? outer_folds(*frame_of_set).size() : 0);
+  const double searched = 0.9 / static_cast<double>(searches);
   const auto searching = part_of(progress, 0.0, searched / 0.9);
   if (searching) searching(0.1, "fitting the baseline");
   const auto finding = find_causes(std::move(*frame_of_set), limits, searching);

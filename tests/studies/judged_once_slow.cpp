@@ -1,27 +1,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis_checks.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
+#include "judged_bench.hpp"
 
 namespace flexspline::studies {
 namespace {
 
-const RecordingSet& bench() {
-  static const RecordingSet set =
-      drawn_case(Rig::locked, 202, {{"presliding_hysteresis", 0.06}}).recordings;
-  return set;
-}
-
-Diagnosis judged(const RecordingSet& set, const std::vector<std::string>& ids) {
-  auto result = diagnose(set, {}, {.holdout = ids});
-  EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message());
-  return result ? *std::move(result) : Diagnosis{};
-}
-
 TEST(JudgedOnce, RecordingsTakenAwayAreSaidAndTheOthersCrossValidated) {
-  const std::string id = bench().recordings[1].id;
-  const Diagnosis d = judged(bench(), {id});
+  const std::string id = judged_bench().recordings[1].id;
+  const Diagnosis d = judged(judged_bench(), {.holdout = {id}});
   EXPECT_TRUE(d.holdout.nested);
   EXPECT_EQ(d.holdout.recordings, std::vector<std::string>{id});
   ASSERT_TRUE(d.cross_validated);
@@ -40,11 +28,11 @@ TEST(JudgedOnce, RecordingsTakenAwayAreSaidAndTheOthersCrossValidated) {
 
 // The proof of a search that never saw them: what they hold changes nothing of what is found.
 TEST(JudgedOnce, WhatIsTakenAwayHasNoSayInWhatIsFound) {
-  RecordingSet other = bench();
+  RecordingSet other = judged_bench();
   Recording& held = other.recordings[1];
   for (double& tau : held.channels.at(Quantity::transmitted_torque)) tau += 0.2;
-  const Diagnosis a = judged(bench(), {held.id});
-  const Diagnosis b = judged(other, {held.id});
+  const Diagnosis a = judged(judged_bench(), {.holdout = {held.id}});
+  const Diagnosis b = judged(other, {.holdout = {held.id}});
   EXPECT_EQ(names(a), names(b));
   ASSERT_EQ(a.causes.size(), b.causes.size());
   for (std::size_t k = 0; k < a.causes.size(); ++k) {
@@ -56,13 +44,13 @@ TEST(JudgedOnce, WhatIsTakenAwayHasNoSayInWhatIsFound) {
 }
 
 TEST(JudgedOnce, RefusesWhatIsNotThereAndEverything) {
-  const auto unknown = diagnose(bench(), {}, {.holdout = {"nothing"}});
+  const auto unknown = diagnose(judged_bench(), {}, {.holdout = {"nothing"}});
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
   EXPECT_NE(unknown.error().message().find("nothing"), std::string::npos);
   std::vector<std::string> all;
-  for (const Recording& recording : bench().recordings) all.push_back(recording.id);
-  const auto everything = diagnose(bench(), {}, {.holdout = all});
+  for (const Recording& recording : judged_bench().recordings) all.push_back(recording.id);
+  const auto everything = diagnose(judged_bench(), {}, {.holdout = all});
   ASSERT_FALSE(everything);
   EXPECT_EQ(everything.error().code, ErrorCode::usage);
 }

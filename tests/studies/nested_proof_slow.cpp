@@ -6,23 +6,11 @@
 
 #include "diagnosis/folds.hpp"
 #include "diagnosis/judged_once.hpp"
-#include "diagnosis_checks.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
+#include "judged_bench.hpp"
 
 namespace flexspline::studies {
 namespace {
-
-const RecordingSet& bench() {
-  static const RecordingSet set =
-      drawn_case(Rig::locked, 202, {{"presliding_hysteresis", 0.06}}).recordings;
-  return set;
-}
-
-Diagnosis judged(const RecordingSet& set, const DiagnosisSettings& settings = {}) {
-  auto result = diagnose(set, {}, settings);
-  EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message());
-  return result ? *std::move(result) : Diagnosis{};
-}
 
 /// Recordings of which rows are marked 1.
 std::vector<std::string> ids_in(const Frame& frame, const Eigen::ArrayXd& rows) {
@@ -34,21 +22,21 @@ std::vector<std::string> ids_in(const Frame& frame, const Eigen::ArrayXd& rows) 
 }
 
 TEST(NestedProof, PoolsWhatIsFoundWithEachFoldDeleted) {
-  const auto frame = make_frame(bench(), 16000);
+  const auto frame = make_frame(judged_bench(), 16000);
   ASSERT_TRUE(frame) << frame.error().message();
   const auto folds = outer_folds(*frame);
-  const Diagnosis nested = judged(bench());
+  const Diagnosis nested = judged(judged_bench());
   ASSERT_EQ(nested.holdout.folds, static_cast<int>(folds.size()));
   ASSERT_FALSE(nested.causes.empty());
   double before = 0.0, after = 0.0, rows = 0.0, naming = 0.0;
   for (const Eigen::ArrayXd& fold : folds) {
     const auto ids = ids_in(*frame, fold);
     const double count = (fold * frame->usable).sum();
-    const Diagnosis one = judged(bench(), {.holdout = ids});
+    const Diagnosis one = judged(judged_bench(), {.holdout = ids});
     before += count * std::pow(one.holdout.rmse_before, 2);
     after += count * std::pow(one.holdout.rmse_after, 2);
     rows += count;
-    const auto rest = without(bench(), ids);
+    const auto rest = without(judged_bench(), ids);
     ASSERT_TRUE(rest) << rest.error().message();
     const auto found = names(judged(*rest, {.nested = false}));
     naming += static_cast<double>(std::ranges::count(found, nested.causes.front().effect));
@@ -61,18 +49,18 @@ TEST(NestedProof, PoolsWhatIsFoundWithEachFoldDeleted) {
 }
 
 TEST(NestedProof, OfMarkedRecordingsIsThatOfTheSameTakenAway) {
-  RecordingSet set = bench();
+  RecordingSet set = judged_bench();
   const std::string id = set.recordings[1].id;
   set.recordings[1].split = Split::holdout;
   const Diagnosis marked = judged(set);
-  const Diagnosis taken = judged(bench(), {.holdout = {id}});
+  const Diagnosis taken = judged(judged_bench(), {.holdout = {id}});
   EXPECT_EQ(marked.holdout.folds, 1);
   EXPECT_NEAR(marked.holdout.rmse_before, taken.holdout.rmse_before, 1e-9);
   EXPECT_NEAR(marked.holdout.rmse_after, taken.holdout.rmse_after, 1e-9);
 }
 
 TEST(NestedProof, QuickHasNoneAndSaysSo) {
-  const Diagnosis quick = judged(bench(), {.nested = false});
+  const Diagnosis quick = judged(judged_bench(), {.nested = false});
   EXPECT_FALSE(quick.holdout.nested);
   EXPECT_FALSE(quick.cross_validated);
   const auto json = to_json(quick);
@@ -81,9 +69,9 @@ TEST(NestedProof, QuickHasNoneAndSaysSo) {
 }
 
 TEST(NestedProof, TheAnswerIsThatOfQuickAndNotOfTheThreads) {
-  const Diagnosis quick = judged(bench(), {.nested = false});
-  const Diagnosis one = judged(bench(), {.threads = 1});
-  const Diagnosis two = judged(bench(), {.threads = 2});
+  const Diagnosis quick = judged(judged_bench(), {.nested = false});
+  const Diagnosis one = judged(judged_bench(), {.threads = 1});
+  const Diagnosis two = judged(judged_bench(), {.threads = 2});
   EXPECT_EQ(names(one), names(quick));
   ASSERT_TRUE(one.cross_validated);
   EXPECT_EQ(one.cross_validated->rmse_after, quick.holdout.rmse_after);
