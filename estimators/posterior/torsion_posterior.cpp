@@ -71,10 +71,10 @@ void begin(std::vector<PriorGroup>& groups, double typical, double first_of_h) {
 }
 
 struct Normal {
+  Eigen::VectorXd at;  // coefficients where it is linearised
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
-  std::vector<RegressionRows> plain;     // Nm, a record each
-  std::vector<RegressionRows> whitened;  // in noises, independent
+  std::vector<RegressionRows> whitened;  // a record each; in noises, independent
 };
 
 // Rows of records without repeats carry the noise of the motion one by one; then the colour goes.
@@ -93,52 +93,67 @@ RegressionRows whitened(const FoldedRecord& one, RegressionRows rows) {
   return rows;
 }
 
-using Jacobian = decltype(RegressionRows::jacobian);
-
-// Entries i >= j of J'J, row by row of J: most entries of a row in white noise are zero.
+// Entries i >= j of J'J by coefficient, row by row of J: most entries of a row in white noise are
+// zero.
 template <class Each>
-void for_each_product(const Jacobian& jacobian, const Each& each) {
-  std::vector<Eigen::Index> filled;
-  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
+void for_each_product(const RegressionRows& rows, const Each& each) {
+  struct Entry {
+    Eigen::Index at;
+    double value;
+  };
+  std::vector<Entry> filled;
+  for (Eigen::Index row = 0; row < rows.jacobian.rows(); ++row) {
     filled.clear();
-    for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
-      if (jacobian(row, i) == 0.0) continue;
-      filled.push_back(i);
-      for (const Eigen::Index j : filled) each(i, j, jacobian(row, i) * jacobian(row, j));
+    for (Eigen::Index column = 0; column < rows.jacobian.cols(); ++column) {
+      const double value = rows.jacobian(row, column);
+      if (value != 0.0) filled.push_back({rows.coefficient(column), value});
     }
+    for (std::size_t i = 0; i < filled.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        each(filled[i].at, filled[j].at, filled[i].value * filled[j].value);
+      }
+    }
+  }
+}
+
+void add_information(const FoldedRecord& one, const RegressionRows& rows, Eigen::MatrixXd& to) {
+  if (one.noise.share > 0.0) {
+    const Eigen::Index shared = rows.shared, own = rows.jacobian.cols() - rows.shared;
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(shared + own, shared + own);
+    products.selfadjointView<Eigen::Upper>().rankUpdate(rows.jacobian.transpose());
+    to.topLeftCorner(shared, shared) += products.topLeftCorner(shared, shared);
+    to.block(0, rows.motion, shared, own) += products.topRightCorner(shared, own);
+    to.block(rows.motion, rows.motion, own, own) += products.bottomRightCorner(own, own);
+  } else {
+    for_each_product(rows, [&](Eigen::Index i, Eigen::Index j, double product) {
+      to(j, i) += product;  // along a column
+    });
   }
 }
 
 Normal normal_equations(const TorsionRegression& all, const std::vector<FoldedRecord>& records,
                         const Eigen::VectorXd& c) {
-  Normal normal;
-  normal.information = Eigen::MatrixXd::Zero(c.size(), c.size());
-  normal.gradient = Eigen::VectorXd::Zero(c.size());
+  Normal normal{.at = c,
+                .information = Eigen::MatrixXd::Zero(c.size(), c.size()),
+                .gradient = Eigen::VectorXd::Zero(c.size()),
+                .whitened = {}};
   for (std::size_t r = 0; r < records.size(); ++r) {
-    normal.plain.push_back(all.linearise(r, c));
-    normal.whitened.push_back(whitened(records[r], normal.plain.back()));
+    normal.whitened.push_back(whitened(records[r], all.linearise(r, c)));
     const auto& rows = normal.whitened.back();
-    if (records[r].noise.share > 0.0) {
-      normal.information.selfadjointView<Eigen::Upper>().rankUpdate(rows.jacobian.transpose());
-    } else {
-      for_each_product(rows.jacobian, [&](Eigen::Index i, Eigen::Index j, double product) {
-        normal.information(j, i) += product;  // along a column
-      });
-    }
-    normal.gradient += rows.jacobian.transpose() * rows.target;
+    add_information(records[r], rows, normal.information);
+    const Eigen::VectorXd gradient = rows.jacobian.transpose() * rows.target;
+    normal.gradient.head(rows.shared) += gradient.head(rows.shared);
+    const Eigen::Index own = gradient.size() - rows.shared;
+    normal.gradient.segment(rows.motion, own) += gradient.tail(own);
   }
   normal.information = Eigen::MatrixXd(normal.information.selfadjointView<Eigen::Upper>());
   return normal;
 }
 
-Eigen::VectorXd left_of(const RegressionRows& rows, const Eigen::VectorXd& c) {
-  return rows.target - rows.jacobian * c;
-}
-
-double edf_of(const Jacobian& jacobian, const Eigen::MatrixXd& covariance) {
+double edf_of(const RegressionRows& rows, const Eigen::MatrixXd& covariance) {
   double sum = 0.0;
-  for_each_product(jacobian, [&](Eigen::Index i, Eigen::Index j, double product) {
-    sum += (i == j ? 1.0 : 2.0) * product * covariance(i, j);
+  for_each_product(rows, [&](Eigen::Index i, Eigen::Index j, double product) {
+    sum += (i == j ? 1.0 : 2.0) * product * covariance(j, i);
   });
   return sum;
 }
@@ -163,9 +178,9 @@ std::vector<bool> refuted(TorsionPosterior& model, const std::vector<FoldedRecor
   double squares = 0.0;
   double freedom = 0.0;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const double left = left_of(normal.whitened[r], model.law.mean).squaredNorm();
+    const double left = normal.whitened[r].left(model.law.mean).squaredNorm();
     const double own = static_cast<double>(normal.whitened[r].target.size()) -
-                       edf_of(normal.whitened[r].jacobian, model.law.covariance);
+                       edf_of(normal.whitened[r], model.law.covariance);
     squares += left;
     freedom += own;
     list.push_back(records[r].repeats && left > own + kRefuted * std::sqrt(2.0 * own));
@@ -241,7 +256,7 @@ double left_in_noises(const Normal& normal, const Eigen::VectorXd& c) {
   double squares = 0.0;
   double rows = 0.0;
   for (const auto& one : normal.whitened) {
-    squares += left_of(one, c).squaredNorm();
+    squares += one.left(c).squaredNorm();
     rows += static_cast<double>(one.target.size());
   }
   return std::sqrt(squares / rows);
@@ -300,7 +315,7 @@ TorsionPosterior concluded(const TorsionPosterior& empty, const TorsionRegressio
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (best.refuted[r]) best.model.misfits.push_back(prepared[r].record.id);
     if (records[r].repeats && !best.refuted[r]) continue;
-    const Eigen::VectorXd raw = left_of(best.normal.plain[r], best.model.law.mean);
+    const Eigen::VectorXd raw = all.linearise(r, best.normal.at).left(best.model.law.mean);
     records[r].noise = noise_of(records[r], {raw.begin(), raw.end()});
     noise_taken = true;
   }

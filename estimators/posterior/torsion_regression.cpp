@@ -92,11 +92,22 @@ void TorsionRegression::fill_motion(const FoldedRecord& one, std::size_t k, cons
   }
 }
 
+Eigen::VectorXd RegressionRows::own(const Eigen::VectorXd& c) const {
+  Eigen::VectorXd coefficients(jacobian.cols());
+  coefficients << c.head(shared), c.segment(motion, jacobian.cols() - shared);
+  return coefficients;
+}
+
 RegressionRows TorsionRegression::linearise(std::size_t r, const Eigen::VectorXd& c) const {
   const FoldedRecord& one = records_[r];
   const auto n = static_cast<Eigen::Index>(one.time.size());
-  RegressionRows rows{decltype(RegressionRows::jacobian)::Zero(n, at_.size), Eigen::VectorXd(n),
-                      Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  const Eigen::Index errors = errors_of(one);
+  RegressionRows rows{.jacobian = decltype(RegressionRows::jacobian)::Zero(n, at_.motion + errors),
+                      .target = Eigen::VectorXd(n),
+                      .along_motion = Eigen::VectorXd(n),
+                      .along_speed = Eigen::VectorXd(n),
+                      .shared = at_.motion,
+                      .motion = motion_[r]};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Place& place = places_[r][k];
@@ -112,7 +123,7 @@ RegressionRows TorsionRegression::linearise(std::size_t r, const Eigen::VectorXd
     row[at_.inertia] = one.acceleration[k] / largest_acceleration_;
     row[at_.delay] =
         -time_scale_ * (p.along_motion * one.velocity[k] + p.along_speed * one.acceleration[k]);
-    fill_motion(one, k, p, row.segment(motion_[r], errors_of(one)));
+    fill_motion(one, k, p, row.segment(at_.motion, errors));
     rows.target[i] = one.torque[k] - p.damping * p.speed * p.log_h;
     rows.along_motion[i] = p.along_motion;
     rows.along_speed[i] = p.along_speed;

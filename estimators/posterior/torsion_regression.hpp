@@ -24,12 +24,23 @@ RegressionColumns regression_columns(const RichLaws& laws, const std::vector<Fol
                                      bool with_h);
 
 /// Eq. (4) at the rows of a record: J, what J c stands for, Nm, d tau/d phi, Nm/rad, and
-/// d tau/d phi', Nm s/rad.
+/// d tau/d phi', Nm s/rad. J has the columns that all records share and those of the errors of its
+/// own motion; those of other records are zero.
 struct RegressionRows {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
   Eigen::VectorXd target;
   Eigen::VectorXd along_motion;
   Eigen::VectorXd along_speed;
+  Eigen::Index shared = 0;  ///< columns
+  Eigen::Index motion = 0;  ///< where the others begin among the coefficients
+
+  /// The coefficient of a column.
+  Eigen::Index coefficient(Eigen::Index column) const {
+    return column < shared ? column : motion + column - shared;
+  }
+  /// Those of all columns, and what they leave of the target, Nm.
+  Eigen::VectorXd own(const Eigen::VectorXd& c) const;
+  Eigen::VectorXd left(const Eigen::VectorXd& c) const { return target - jacobian * own(c); }
 };
 
 /// tau = o + f(phi) + g^-1(phi'/h(phi)) + J phi'' - d d tau/dt + e of all records, linearised in ln

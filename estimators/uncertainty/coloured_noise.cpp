@@ -198,9 +198,11 @@ void WhiteningFilter::whiten(
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
     auto row = rows.row(static_cast<Eigen::Index>(k));
-    process *= step.transition;
-    row -= process;
-    process += step.update * row;
+    if (step.update > 0.0) {  // else the noise is white
+      process *= step.transition;
+      row -= process;
+      process += step.update * row;
+    }
     row *= step.weight;
   }
 }
