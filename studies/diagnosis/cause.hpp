@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -71,18 +73,29 @@ struct CauseForm {
   std::string_view no_counterpart = {};  ///< why there is none
 };
 
+struct DriveModel;
+
+/// What the baseline has where recordings ask for it, and what is never a name.
+struct BaselinePart {
+  double most = std::numeric_limits<double>::infinity();  ///< larger coefficients are no such part
+  /// Of the cause at that place in the model.
+  std::string (*says)(const DriveModel&, std::size_t cause) = nullptr;
+};
+
 /// A row of the catalogue of causes: an id of flexspline-diagnosis/1 and the ways it may act.
 struct CauseRow {
   std::string_view id;
   std::string_view coordinate;
   std::vector<CauseForm> forms;
-  bool of_baseline = false;  ///< a part of the baseline where recordings ask for it, never a name
+  std::optional<BaselinePart> part = {};  ///< without: a cause
+
+  bool of_baseline() const { return part.has_value(); }
 };
 
 /// Every cause, one file each in studies/diagnosis/causes.
 std::span<const CauseRow> causes();
 
-/// What the baseline has where recordings ask for it: a spring that differs between its sides.
+/// What the baseline has where recordings ask for it, one file each in studies/diagnosis/parts.
 std::span<const CauseRow> baseline_parts();
 
 /// The first equation of the frame that a form acts on.

@@ -54,7 +54,7 @@ std::vector<std::string> remarks_on(const Selection& s) {
   std::vector<std::string> remarks;
   for (const Accepted& small : s.immaterial) {
     remarks.push_back(
-        small.trial.cause.row->of_baseline
+        small.trial.cause.row->of_baseline()
             ? ""
             : fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
   }

@@ -78,7 +78,7 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
   const Accepted* most = nullptr;
   if (!s.accepted.empty()) return most;
   for (const Accepted& a : s.immaterial) {
-    if (a.trial.cause.row->of_baseline) continue;
+    if (a.trial.cause.row->of_baseline()) continue;
     const bool seen =
         a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.remainder_share;
     if (seen && (most == nullptr || a.trial.removed > most->trial.removed)) most = &a;

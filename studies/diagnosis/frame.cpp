@@ -10,6 +10,10 @@ namespace flexspline::studies {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
+namespace {
+constexpr double kGravity = 9.80665;  // m/s2
+}
+
 std::string_view name_of(Equation equation) {
   switch (equation) {
     case Equation::torsion:
@@ -39,6 +43,14 @@ ArrayXd Frame::filtered(const ArrayXd& signal, double time_constant) const {
     }
   }
   return y;
+}
+
+double Frame::pendulum_moment() const { return pendulum_mass() * pendulum_arm() * kGravity; }
+
+void Frame::hang_pendulum() {
+  gravity = pendulum_moment() * load_angle.sin();
+  torque = gravity + pendulum_mass() * pendulum_arm() * pendulum_arm() * load_acceleration;
+  smooth_torque = torque;
 }
 
 void Frame::measure_torsion() {

@@ -17,12 +17,19 @@ enum class Equation { torsion, load, motor };
 
 std::string_view name_of(Equation equation);
 
+/// A motion that comes again: its last rows are where those a period before were.
+struct Repeat {
+  Eigen::Index period = 0;  ///< rows; 0: it does not
+  Eigen::Index rows = 0;
+};
+
 /// Rows [first, first + count) of a frame that come from one recording.
 struct Segment {
   std::string id;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
   Split split = Split::unassigned;
+  Repeat repeat = {};
 };
 
 /// A stretch of one recording that has something of its own, and is left out.
@@ -86,6 +93,12 @@ struct Frame {
   std::shared_ptr<KeptBaselines> kept;
 
   Eigen::Index rows() const { return time.size(); }
+  /// Of a servo's pendulum: m, l and m g l, those that are not stated as 1 kg and 1 m.
+  double pendulum_mass() const { return load_mass > 0.0 ? load_mass : 1.0; }
+  double pendulum_arm() const { return arm_length > 0.0 ? arm_length : 1.0; }
+  double pendulum_moment() const;
+  /// The torque of that pendulum where its load turns: gravity, and with it all of the torque.
+  void hang_pendulum();
   bool has(Equation equation) const;
   /// Largest |torque| that an equation explains, over usable rows: at the motor shaft or across the
   /// transmission.

@@ -8,6 +8,7 @@
 #include "diagnosis/middle.hpp"
 #include "diagnosis/model_columns.hpp"
 #include "diagnosis/periodic_angle.hpp"
+#include "diagnosis/repeats.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -22,7 +23,6 @@ constexpr double kRippleLimit = 0.002;  // that error's torque over the largest 
 constexpr double kSameZero = 0.2;       // zeros that differ by less, over the widest motion
 constexpr double kFarZero = 0.25;       // of half the motion: a tenth of torque as offset is nearer
 constexpr double kSticking = 0.02;      // of the largest speed
-constexpr double kGravity = 9.80665;    // m/s2
 constexpr double kForgotten = 5.0;      // time constants, after which 0.7 % of a start are left
 constexpr double kBeginning = 0.2;      // of a recording, at most that much of it is a start
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends
@@ -140,6 +140,9 @@ class FrameMaker {
     leave_out_sticking();
     leave_out_starts();
     leave_out_hidden_motor();
+    for (Segment& s : frame_.segments) {
+      s.repeat = repeat_of(frame_.motor_angle.segment(s.first, s.count));
+    }
     return std::move(frame_);
   }
 
@@ -189,13 +192,7 @@ class FrameMaker {
       f.load_acceleration = f.torsion_acceleration;
       return;
     }
-    if (f.rig == Rig::servo) {
-      const double mass = constant(set_, "load_mass_kg", 1.0);
-      const double arm = constant(set_, "arm_length_m", 1.0);
-      f.gravity = mass * arm * kGravity * f.load_angle.sin();
-      f.torque = f.gravity + mass * arm * arm * f.load_acceleration;
-      f.smooth_torque = f.torque;
-    }
+    if (f.rig == Rig::servo) f.hang_pendulum();
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;
     f.torsion_acceleration = f.motor_acceleration / f.ratio - f.load_acceleration;

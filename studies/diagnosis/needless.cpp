@@ -134,7 +134,7 @@ bool stays(const Frame& frame, const Limits& limits, const Selection& s, const W
 Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
                   const Worth& worth) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    if (is_no_part(*s.accepted[i].trial.cause.row, s.final.fit.model.coefficients[i], limits)) {
+    if (is_no_part(*s.accepted[i].trial.cause.row, s.final.fit.model.coefficients[i])) {
       return {i, "it is more than a part of the baseline"};
     }
   }
@@ -146,7 +146,7 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
   }
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
   for (std::size_t i : order) {
-    if (s.accepted[i].trial.cause.row->of_baseline) continue;
+    if (s.accepted[i].trial.cause.row->of_baseline()) continue;
     const auto large = shadow_on(frame, s, i, worth.loss, limits);
     if (!large) continue;
     const bool may_stay = complete && !usurps(s.accepted[i], s.accepted[*large]);

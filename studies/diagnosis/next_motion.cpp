@@ -20,8 +20,7 @@ using Eigen::Index;
 
 constexpr Index kSamples = 600;
 constexpr double kCycles = 3.0;
-constexpr double kGravity = 9.80665;  // m/s2
-constexpr double kReach = 1.02;       // of what was recorded
+constexpr double kReach = 1.02;  // of what was recorded
 constexpr double kShares[] = {0.1, 0.25, 0.5, 0.75, 1.0};
 
 double largest(const Frame& f, const ArrayXd& channel) {
@@ -77,11 +76,7 @@ Imposed imposed_on(const Frame& f) {
 void turn_with_load(Frame& f) {
   f.motor_angle = f.ratio * f.load_angle, f.motor_speed = f.ratio * f.load_speed;
   f.motor_acceleration = f.ratio * f.load_acceleration;
-  const double mass = f.load_mass > 0.0 ? f.load_mass : 1.0;
-  const double arm = f.arm_length > 0.0 ? f.arm_length : 1.0;
-  f.gravity = mass * arm * kGravity * f.load_angle.sin();
-  f.torque = f.gravity + mass * arm * arm * f.load_acceleration;
-  f.smooth_torque = f.torque;
+  f.hang_pendulum();
 }
 
 void turn_with_torsion(Frame& f) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/middle.hpp"
+#include "diagnosis/repeats.hpp"
 #include "diagnosis/running_parabola.hpp"
 
 namespace flexspline::studies {
@@ -15,8 +16,11 @@ using Eigen::Index;
 constexpr Index kHalfNarrow = 25;
 constexpr Index kHalfWide = 80;
 constexpr Index kLags = 40;
-constexpr double kAlike = 0.5;       // autocorrelation
-constexpr Index kFewestRows = 1000;  // of a recording
+constexpr double kAlike = 0.5;           // autocorrelation
+constexpr Index kFewestRows = 1000;      // of a recording
+constexpr double kFewestCompared = 100;  // rows with those of another cycle
+constexpr Index kMostLags = 400;
+constexpr double kUnseen = 2.5;  // of slow noise beyond what its fast part shows, on the bench
 
 // Residual less running parabola, where the window fits; segment by segment.
 std::vector<ArrayXd> fast_part(const Frame& frame, const ArrayXd& residual, Index half) {
@@ -50,15 +54,101 @@ ArrayXd autocorrelation(const Frame& frame, const ArrayXd& residual) {
   return product / variance + parabola_weights(kHalfWide)[kHalfWide];
 }
 
+/// Autocorrelation of what is not repeated, all recordings together.
+class RepeatedNoise {
+ public:
+  RepeatedNoise(const Frame& frame, const ArrayXd& residual) {
+    for (const ArrayXd& part : unrepeated(frame, residual)) {
+      const ArrayXd there = part.isNaN().select(ArrayXd::Zero(part.size()), 1.0);
+      if (there.sum() < kFewestCompared) continue;
+      parts_.push_back({part.isNaN().select(0.0, part), there});
+    }
+  }
+
+  /// False where no recording repeats, or nothing but the same comes again.
+  bool is_known() const { return product(0) > 0.0; }
+  double at(Index lag) const { return product(lag) / product(0); }
+
+ private:
+  struct Part {
+    ArrayXd value;  // 0 where it is not there
+    ArrayXd there;
+  };
+
+  double product(Index lag) const {
+    double sum = 0.0, count = 0.0;
+    for (const Part& part : parts_) {
+      const Index n = part.value.size() - lag;
+      if (n < 1) continue;
+      sum += (part.value.head(n) * part.value.tail(n)).sum();
+      count += (part.there.head(n) * part.there.tail(n)).sum();
+    }
+    return count > 0.0 ? sum / count : 0.0;
+  }
+
+  std::vector<Part> parts_;
+};
+
+// Sum of autocorrelations, by pairs while these are positive (Geyer 1992, initial positive
+// sequence): as many lags as the noise is long.
+double long_run(const RepeatedNoise& noise) {
+  double sum = -1.0;
+  for (Index lag = 0; lag < kMostLags; lag += 2) {
+    const double pair = noise.at(lag) + noise.at(lag + 1);
+    if (!(pair > 0.0)) break;
+    sum += 2.0 * pair;
+  }
+  return std::max(1.0, sum);
+}
+
+double rms_of(const ArrayXd& part) {
+  double sum = 0.0, count = 0.0;
+  for (const double value : part) {
+    if (!std::isnan(value)) sum += value * value, count += 1.0;
+  }
+  return count < kFewestCompared ? 0.0 : std::sqrt(sum / count);
+}
+
+/// Of the recordings that repeat: the noise, and by how much it is larger than its fast part.
+struct Usual {
+  double level = 0.0;
+  double over_fast = 1.0;
+};
+
+Usual usual_of(const std::vector<double>& fast, const std::vector<double>& whole) {
+  std::vector<double> levels, ratios;
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    if (!(fast[i] > 0.0 && whole[i] > 0.0)) continue;
+    levels.push_back(whole[i]);
+    ratios.push_back(std::max(1.0, whole[i] / fast[i]));
+  }
+  if (levels.empty()) return {};
+  return {middle(std::move(levels)), middle(std::move(ratios))};
+}
+
+std::vector<double> fast_levels(const Frame& frame, const ArrayXd& residual) {
+  const double kept = 1.0 - parabola_weights(kHalfNarrow)[kHalfNarrow];
+  std::vector<double> levels;
+  for (const ArrayXd& part : fast_part(frame, residual, kHalfNarrow)) {
+    levels.push_back(part.size() > 8 ? std::sqrt(part.square().mean() / kept) : 0.0);
+  }
+  return levels;
+}
+
 }  // namespace
 
 std::vector<double> noise_levels(const Frame& frame, const ArrayXd& residual) {
-  const double kept = 1.0 - parabola_weights(kHalfNarrow)[kHalfNarrow];
-  std::vector<double> levels;
+  std::vector<double> levels = fast_levels(frame, residual);
+  std::vector<double> whole;
+  for (const ArrayXd& part : unrepeated(frame, residual)) whole.push_back(rms_of(part));
+  const Usual usual = usual_of(levels, whole);
   std::vector<double> known;
-  for (const ArrayXd& part : fast_part(frame, residual, kHalfNarrow)) {
-    levels.push_back(part.size() > 8 ? std::sqrt(part.square().mean() / kept) : 0.0);
-    if (levels.back() > 0.0) known.push_back(levels.back());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    // Where nothing repeats, the noise of the others or its slow part beside this fast one.
+    const double slow =
+        whole[i] > 0.0 ? whole[i] : std::min(usual.level, usual.over_fast * levels[i]);
+    levels[i] = std::max(levels[i], slow);
+    if (levels[i] > 0.0) known.push_back(levels[i]);
   }
   const double typical = middle(known);
   for (double& level : levels) level = std::max(level, 0.5 * typical);
@@ -66,13 +156,17 @@ std::vector<double> noise_levels(const Frame& frame, const ArrayXd& residual) {
 }
 
 double noise_colour(const Frame& frame, const ArrayXd& residual) {
-  return std::max(1.0, 1.0 + 2.0 * autocorrelation(frame, residual).sum());
+  const RepeatedNoise noise(frame, residual);
+  if (noise.is_known()) return long_run(noise);
+  return kUnseen * std::max(1.0, 1.0 + 2.0 * autocorrelation(frame, residual).sum());
 }
 
 Index rows_alike(const Frame& frame, const ArrayXd& residual) {
-  const ArrayXd correlation = autocorrelation(frame, residual);
+  const RepeatedNoise noise(frame, residual);
+  const bool known = noise.is_known();
+  const ArrayXd otherwise = known ? ArrayXd() : autocorrelation(frame, residual);
   Index lag = 1;
-  while (lag <= kLags && correlation[lag - 1] > kAlike) ++lag;
+  while (lag <= kLags && (known ? noise.at(lag) : otherwise[lag - 1]) > kAlike) ++lag;
   return lag;
 }
 

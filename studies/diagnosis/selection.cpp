@@ -16,13 +16,13 @@ constexpr int kRefreshSteps = 8;
 bool admissible(const Trial& trial, const Limits& limits) {
   return trial.cause.row != nullptr && trial.net_gain >= limits.net_gain &&
          !is_taken_up(trial, limits) &&
-         !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back(), limits);
+         !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
 }
 
 Accepted accepted_as(Trial trial, const Limits& limits) {
   Accepted accepted;
   accepted.first_gain = trial.gain;
-  accepted.material = !trial.cause.row->of_baseline && trial.size >= limits.size &&
+  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.size &&
                       trial.net_gain >= limits.named_gain;
   accepted.trial = std::move(trial);
   return accepted;
@@ -31,7 +31,7 @@ Accepted accepted_as(Trial trial, const Limits& limits) {
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
   Accepted accepted = accepted_as(std::move(trials[best]), limits);
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline) continue;
+    if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
     const bool alike =
         trials[i].gain > limits.alike * accepted.trial.gain && admissible(trials[i], limits);
     (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
@@ -166,8 +166,9 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
 
 }  // namespace
 
-bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients, const Limits& limits) {
-  return row.of_baseline && coefficients.cwiseAbs().maxCoeff() > limits.part;
+bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
+  return row.of_baseline() && coefficients.size() > 0 &&
+         coefficients.cwiseAbs().maxCoeff() > row.part->most;
 }
 
 bool is_taken_up(const Trial& trial, const Limits& limits) {

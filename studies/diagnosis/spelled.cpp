@@ -175,11 +175,9 @@ std::vector<std::string> spelled_parts(const Selection& s) {
   std::vector<std::string> list;
   const DriveModel& model = s.final.fit.model;
   for (std::size_t i = 0; i < model.causes.size(); ++i) {
-    if (!model.causes[i].row->of_baseline) continue;
-    list.push_back(
-        fmt::format("the spring is {:.2g} % stiffer at positive torsion than at negative: part of "
-                    "the baseline, not an effect",
-                    200.0 * model.coefficients[i][0]));
+    const auto& part = model.causes[i].row->part;
+    if (!part) continue;
+    list.push_back(part->says(model, i) + ": part of the baseline, not an effect");
   }
   return list;
 }
@@ -238,14 +236,14 @@ std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& lim
   std::vector<TriedCandidate> list;
   int round = 0;
   for (const Accepted& a : s.immaterial) {
-    if (a.trial.cause.row->of_baseline) continue;
+    if (a.trial.cause.row->of_baseline()) continue;
     list.push_back(tried(a.trial, ++round, why_immaterial(a.trial, limits)));
   }
   for (const Accepted& a : s.accepted) add_round(a, ++round, limits, list);
   for (const Accepted& a : s.withdrawn) add_round(a, ++round, limits, list);
   ++round;
   for (const Trial& t : s.last_field) {
-    if (t.cause.row == nullptr || t.cause.row->of_baseline) continue;
+    if (t.cause.row == nullptr || t.cause.row->of_baseline()) continue;
     list.push_back(tried(t, round, outcome_of(t, false, limits)));
   }
   return list;

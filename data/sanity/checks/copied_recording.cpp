@@ -19,17 +19,17 @@ constexpr std::size_t kLeast = 32;      // samples in a row that no two measurem
 constexpr std::size_t kMost = 50000;    // samples compared of each
 constexpr std::size_t kDifferent = 12;  // values among them
 
-/// The channel that noise makes the most different from itself.
+/// The channel that noise makes the most different from itself: what drives or resists, before a
+/// position, which coarse encoders read alike wherever the same motion is asked for.
 const Series* telling(const ObservedSet& all, const Recording& recording) {
-  const Series* best = nullptr;
+  const Series* position = nullptr;
   for (const Quantity quantity : telling_channels(all.set)) {
     const Series* values = recording.find(quantity);
     if (values == nullptr || !(range_of(*values) > 0.0)) continue;
-    const bool effort = quantity == Quantity::transmitted_torque || quantity == Quantity::torque ||
-                        quantity == Quantity::force;
-    if (best == nullptr || effort) best = values;
+    if (!is_position(quantity)) return values;
+    if (position == nullptr) position = values;
   }
-  return best;
+  return position;
 }
 
 /// As much of a series as is compared.
