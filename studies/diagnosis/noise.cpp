@@ -20,7 +20,6 @@ constexpr double kAlike = 0.5;           // autocorrelation
 constexpr Index kFewestRows = 1000;      // of a recording
 constexpr double kFewestCompared = 100;  // rows with those of another cycle
 constexpr Index kMostLags = 400;
-constexpr double kUnseen = 2.5;  // of slow noise beyond what its fast part shows, on the bench
 
 // Residual less running parabola, where the window fits; segment by segment.
 std::vector<ArrayXd> fast_part(const Frame& frame, const ArrayXd& residual, Index half) {
@@ -158,7 +157,7 @@ std::vector<double> noise_levels(const Frame& frame, const ArrayXd& residual) {
 double noise_colour(const Frame& frame, const ArrayXd& residual) {
   const RepeatedNoise noise(frame, residual);
   if (noise.is_known()) return long_run(noise);
-  return kUnseen * std::max(1.0, 1.0 + 2.0 * autocorrelation(frame, residual).sum());
+  return kUnseenColour * std::max(1.0, 1.0 + 2.0 * autocorrelation(frame, residual).sum());
 }
 
 Index rows_alike(const Frame& frame, const ArrayXd& residual) {

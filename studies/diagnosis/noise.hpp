@@ -11,14 +11,21 @@ struct EquationNoise {
   Eigen::Index alike = 1;     ///< rows over which it hardly changes
 };
 
-/// What is left of a residual when all that changes slowly is taken out: standard deviation about a
-/// running parabola of 51 samples (Savitzky and Golay 1964), by recording, its freedom counted. A
-/// model error that changes within a few samples counts as noise.
+/// Standard deviation by recording. Where its motion repeats: of what the residual does not repeat
+/// from one cycle to the next, so of noise however slow, whatever a model misses; else what is left
+/// about a running parabola of 51 samples (Savitzky and Golay 1964), its freedom counted, to which
+/// the slow noise of those that repeat is added. Never less than that about the parabola, to which
+/// a model error that changes within a few samples is noise.
 std::vector<double> noise_levels(const Frame& frame, const Eigen::ArrayXd& residual);
 
-/// 1 + 2 sum of autocorrelations over forty lags, of the residual about a running parabola of 161
-/// samples; at least 1. Slow noise passes the parabola only in part, so of a first-order process
-/// longer than some samples this is far too little: the limits of a decision were set with it.
+/// By how much a colour that is measured about a running parabola is too small, which slow noise
+/// passes only in part: the limits of a decision are in chi squares of honest noise.
+inline constexpr double kUnseenColour = 2.5;
+
+/// Long-run variance over variance, at least 1: by the autocorrelations of what the residual does
+/// not repeat, summed by pairs while these are positive (Geyer 1992). Where no recording's motion
+/// repeats: kUnseenColour times 1 + 2 sum of forty autocorrelations of the residual about a running
+/// parabola of 161 samples.
 double noise_colour(const Frame& frame, const Eigen::ArrayXd& residual);
 
 /// Rows over which the noise stays alike: the first lag at which its autocorrelation, measured as

@@ -47,6 +47,7 @@ Index period_of(const ArrayXd& motion, double anywhere) {
 }  // namespace
 
 Repeat repeat_of(const ArrayXd& motion) {
+  if (motion.size() <= kCompared) return {};
   const double anywhere = 2.0 * (motion - motion.mean()).square().mean();
   if (!(anywhere > 0.0)) return {};
   Repeat repeat{period_of(motion, anywhere), 0};

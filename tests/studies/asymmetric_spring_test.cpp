@@ -1,4 +1,4 @@
-// A spring that is stiffer on one side, and a zero that is far off: both of the baseline, no names.
+// A spring that is stiffer on one side, and zeros that are off: of the baseline, no names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,6 +83,25 @@ TEST_P(Disturbed, AnEffectBesideItKeepsItsName) {
   const ConcealedCase hidden =
       disturbed(GetParam(), 9, "asymmetric_spring", {{"presliding_hysteresis", 0.06}});
   EXPECT_THAT(names(diagnosed(hidden.recordings)), ElementsAre("presliding_hysteresis"));
+}
+
+// An arm that hangs anywhere but at the encoder's zero: gravity's cosine is no offset of the
+// torque.
+TEST(DisturbedServo, TheZeroOfAnArmIsNoMissingPhysics) {
+  for (const std::uint64_t seed : {5U, 9U}) {
+    const ConcealedCase hidden = disturbed(Rig::servo, seed, "encoder_zero");
+    const Diagnosis d = diagnosed(hidden.recordings);
+    EXPECT_THAT(names(d), ElementsAre()) << seed;
+    EXPECT_EQ(d.verdict, Verdict::adequate) << seed << ": " << d.says;
+    if (std::abs(applied(hidden, "zero")) < 0.02) continue;
+    EXPECT_THAT(d.notes, Contains(HasSubstr("deg of its encoder"))) << seed;
+  }
+}
+
+TEST(DisturbedServo, AnOffsetBesideItKeepsItsName) {
+  const ConcealedCase hidden =
+      disturbed(Rig::servo, 9, "encoder_zero", {{"motor_torque_offset", 0.06}});
+  EXPECT_THAT(names(diagnosed(hidden.recordings)), ElementsAre("motor_torque_offset"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, Disturbed, testing::Values(Rig::locked, Rig::free, Rig::specimen),

@@ -42,6 +42,23 @@ TEST(Sanity, SoundBenchesRaiseNoAlarm) {
   }
 }
 
+bool is_a_copy(const RecordingSet& set) {
+  return std::ranges::any_of(
+      sanity_of(set), [](const SanityFinding& one) { return one.check == "copied_recording"; });
+}
+
+// The same motion is asked for twice, and a coarse encoder reads it alike; the torque is another.
+TEST(Sanity, TheSameAnglesAreNoCopyTheSameTorquesAre) {
+  RecordingSet set = sound(Rig::servo);
+  std::vector<double>& angle = set.recordings[1].channels.at(Quantity::load_angle);
+  const std::vector<double>& other = set.recordings[0].channels.at(Quantity::load_angle);
+  std::copy_n(other.begin(), std::min(angle.size(), other.size()), angle.begin());
+  EXPECT_FALSE(is_a_copy(set));
+  set.recordings[1].channels = set.recordings[0].channels;
+  set.recordings[1].time = set.recordings[0].time;
+  EXPECT_TRUE(is_a_copy(set));
+}
+
 /// Whether the catalogue has it, as `list checks` prints it.
 bool is_listed(const SanityFinding& one) {
   const auto rows = data::sanity_checks();

@@ -166,20 +166,22 @@ bool goes_by_measured_torque(const CauseRow& row, Equation equation) {
 TEST_P(WrittenModel, OfEveryCauseLeavesItsResidual) {
   const Fitted fit = fitted(GetParam());
   int written_ones = 0;
-  for (const CauseRow& row : causes()) {
-    for (const CauseForm* form : forms_on(row, fit.frame)) {
-      if (form->counterpart == nullptr) continue;
-      const DriveModel model = with_cause(fit.frame, fit.findings, row, *form);
-      const Reference reference = reference_of(fit.frame, model);
-      const ModelFit expected = evaluate(fit.frame, model, reference);
-      const auto written = specify(fit.frame, model);
-      const RigModel file = through_a_file(written.model);
-      ++written_ones;
-      for (Equation equation : fit.frame.equations) {
-        if (!is_simulated(equation)) continue;
-        const double d = apart(fit, expected, file, equation);
-        if (!written.notes.empty() || goes_by_measured_torque(row, equation)) continue;
-        EXPECT_LT(d, 0.4) << row.id << ", " << form->equation << ", " << name_of(equation);
+  for (const auto rows : {causes(), baseline_parts()}) {
+    for (const CauseRow& row : rows) {
+      for (const CauseForm* form : forms_on(row, fit.frame)) {
+        if (form->counterpart == nullptr) continue;
+        const DriveModel model = with_cause(fit.frame, fit.findings, row, *form);
+        const Reference reference = reference_of(fit.frame, model);
+        const ModelFit expected = evaluate(fit.frame, model, reference);
+        const auto written = specify(fit.frame, model);
+        const RigModel file = through_a_file(written.model);
+        ++written_ones;
+        for (Equation equation : fit.frame.equations) {
+          if (!is_simulated(equation)) continue;
+          const double d = apart(fit, expected, file, equation);
+          if (!written.notes.empty() || goes_by_measured_torque(row, equation)) continue;
+          EXPECT_LT(d, 0.4) << row.id << ", " << form->equation << ", " << name_of(equation);
+        }
       }
     }
   }
