@@ -96,6 +96,24 @@ std::optional<ShownExperiment> parse_experiment(const json& from) {
                          number_in(from, "frequency_hz"), number_in(from, "separation_sigma")};
 }
 
+/// None where the artefact has no table, or one that does not fit its axes.
+std::optional<ShownUnnamed> parse_unnamed(const json& from) {
+  const json& table = member(from, "table");
+  ShownUnnamed part;
+  std::size_t knots = 1;
+  for (const json& axis : member(table, "axes")) {
+    part.axes.push_back(
+        {text_in(axis, "coordinate"), text_in(axis, "unit"), numbers_in(axis, "values")});
+    knots *= part.axes.back().values.size();
+  }
+  part.torque = numbers_in(table, "torque");
+  part.torque_unit = text_in(table, "unit");
+  part.formula = text_in(from, "proposed_equation");
+  part.says = text_in(from, "says");
+  const bool fits = !part.axes.empty() && part.axes.size() <= 2 && part.torque.size() == knots;
+  return fits ? std::optional(std::move(part)) : std::nullopt;
+}
+
 void parse_units(const json& from, DiagnosisView& into) {
   const auto take = [&](const char* key, std::string& unit) {
     if (const std::string text = text_in(from, key); !text.empty()) unit = text;
@@ -193,6 +211,7 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   }
   parse_list(artefact, "tried", parse_candidate, view.tried);
   parse_list(artefact, "moved", parse_move, view.moved);
+  view.unnamed = parse_unnamed(member(artefact, "unnamed"));
   view.next = parse_experiment(member(artefact, "next_experiment"));
   parse_list(artefact, "series", parse_series, view.series);
   // A joint whose transmission is rigid is compared over its own angle.

@@ -24,50 +24,70 @@ Eigen::MatrixXd gram_of(const SeparableBlock& block) {
   const Eigen::Index shared = block.shared->columns.cols();
   const Eigen::Index own = block.columns.cols();
   Eigen::MatrixXd gram(shared + own, shared + own);
-  gram.topLeftCorner(shared, shared) = block.shared->gram;
+  gram.topLeftCorner(shared, shared) = block.shared->gram();
   gram.bottomLeftCorner(own, shared) = block.columns.transpose() * block.shared->columns;
   gram.topRightCorner(shared, own) = gram.bottomLeftCorner(own, shared).transpose();
   gram.bottomRightCorner(own, own) = gram_of(block.columns);
   return gram;
 }
 
-Eigen::VectorXd times_target(const SeparableBlock& block) {
+Eigen::VectorXd transposed_times(const SeparableBlock& block, const Eigen::VectorXd& y) {
   Eigen::VectorXd product(static_cast<Eigen::Index>(block.index.size()));
   if (block.shared != nullptr) {
-    product.head(block.shared->columns.cols()) = block.shared->columns.transpose() * block.target;
+    product.head(block.shared->columns.cols()) = block.shared->columns.transpose() * y;
   }
-  product.tail(block.columns.cols()) = block.columns.transpose() * block.target;
+  product.tail(block.columns.cols()) = block.columns.transpose() * y;
+  return product;
+}
+
+Eigen::VectorXd times(const SeparableBlock& block, const Eigen::VectorXd& b) {
+  Eigen::VectorXd product = block.columns * b.tail(block.columns.cols());
+  if (block.shared != nullptr) {
+    product += block.shared->columns * b.head(block.shared->columns.cols());
+  }
   return product;
 }
 
 Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
-  Eigen::VectorXd residual = block.target - block.columns * b.tail(block.columns.cols());
-  if (block.shared != nullptr) {
-    residual -= block.shared->columns * b.head(block.shared->columns.cols());
+  return block.target - times(block, b);
+}
+
+/// N b = X^T target of all blocks together.
+struct NormalEquations {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd right;
+};
+
+NormalEquations normal_equations(const std::vector<SeparableBlock>& blocks, Eigen::Index count) {
+  NormalEquations n{Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
+  for (const SeparableBlock& block : blocks) {
+    n.normal(block.index, block.index) += gram_of(block);
+    n.right(block.index) += transposed_times(block, block.target);
   }
-  return residual;
+  return n;
 }
 
 // Column scaling keeps the normal equations of splines well conditioned.
-Eigen::VectorXd coefficients(const std::vector<SeparableBlock>& blocks,
-                             const Eigen::VectorXd& lower) {
-  const Eigen::Index k = lower.size();
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(k, k);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(k);
-  for (const SeparableBlock& block : blocks) {
-    normal(block.index, block.index) += gram_of(block);
-    right(block.index) += times_target(block);
-  }
-  const Eigen::VectorXd scale = normal.diagonal().unaryExpr(
+Eigen::VectorXd scale_of(const Eigen::MatrixXd& normal) {
+  return normal.diagonal().unaryExpr(
       [](double d) { return d > 0.0 && std::isfinite(d) ? 1.0 / std::sqrt(d) : 0.0; });
-  Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-12;
+}
+
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& normal, const Eigen::VectorXd& scale) {
+  Eigen::MatrixXd result = scale.asDiagonal() * normal * scale.asDiagonal();
+  result.diagonal().array() += 1e-12;
+  return result;
+}
+
+Eigen::VectorXd coefficients(const NormalEquations& n, const Eigen::VectorXd& lower) {
+  const Eigen::VectorXd scale = scale_of(n.normal);
   // In scaled parameters; a column of zeros stays at its bound.
   Eigen::VectorXd bound = lower;
-  for (Eigen::Index i = 0; i < k; ++i) {
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
     if (std::isfinite(lower[i])) bound[i] = scale[i] > 0.0 ? lower[i] / scale[i] : 0.0;
   }
-  const Eigen::VectorXd b = bounded_least_squares(scaled, scale.cwiseProduct(right), bound);
+  const Eigen::VectorXd b =
+      bounded_least_squares(scaled(n.normal, scale), scale.cwiseProduct(n.right), bound);
   return scale.cwiseProduct(b).cwiseMax(lower);
 }
 
@@ -83,10 +103,70 @@ Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& parts) {
   return all;
 }
 
-// The Jacobian of the projected residual by one-sided differences that stay within the bounds.
-Eigen::MatrixXd jacobian(const SeparableProblem& problem, const SeparableFit& fit,
-                         const Eigen::VectorXd& residual, int& evaluations) {
-  Eigen::MatrixXd result(residual.size(), static_cast<Eigen::Index>(fit.q.size()));
+/// A fit and what it was made of.
+struct Point {
+  SeparableFit fit;
+  std::vector<SeparableBlock> blocks;
+  Eigen::MatrixXd normal;
+};
+
+Point point_at(const SeparableProblem& problem, std::span<const double> q) {
+  Point point;
+  point.fit.q.assign(q.begin(), q.end());
+  point.blocks = problem.assemble(q);
+  NormalEquations n = normal_equations(point.blocks, problem.lower.size());
+  point.fit.b = coefficients(n, problem.lower);
+  point.normal = std::move(n.normal);
+  for (const SeparableBlock& block : point.blocks) {
+    point.fit.residual.push_back(residual_of(block, point.fit.b(block.index)));
+    point.fit.sum_of_squares += point.fit.residual.back().squaredNorm();
+  }
+  point.fit.evaluations = 1;
+  return point;
+}
+
+/// What the coefficients that are not on a bound take of a change of the residual.
+class Projection {
+ public:
+  Projection(const Point& point, const Eigen::VectorXd& lower) : point_(point) {
+    for (Eigen::Index i = 0; i < lower.size(); ++i) {
+      if (point.fit.b[i] > lower[i] && point.normal(i, i) > 0.0) free_.push_back(i);
+    }
+    const Eigen::MatrixXd normal = point.normal(free_, free_);
+    scale_ = scale_of(normal);
+    solver_.compute(scaled(normal, scale_));
+  }
+
+  /// d - X (X^T X)^-1 X^T d over the free columns, block by block.
+  void project(std::vector<Eigen::VectorXd>& change) const {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(point_.fit.b.size());
+    for (std::size_t k = 0; k < change.size(); ++k) {
+      const SeparableBlock& block = point_.blocks[k];
+      right(block.index) += transposed_times(block, change[k]);
+    }
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(right.size());
+    b(free_) = scale_.cwiseProduct(solver_.solve(scale_.cwiseProduct(right(free_))));
+    for (std::size_t k = 0; k < change.size(); ++k) {
+      change[k] -= times(point_.blocks[k], b(point_.blocks[k].index));
+    }
+  }
+
+ private:
+  const Point& point_;
+  std::vector<Eigen::Index> free_;
+  Eigen::VectorXd scale_;
+  Eigen::LDLT<Eigen::MatrixXd> solver_;
+};
+
+// The Jacobian of the projected residual after Kaufman (1975): the change of the residual at fixed
+// b by one-sided differences that stay within the bounds, less what b takes of it. Its gradient is
+// exact.
+Eigen::MatrixXd jacobian(const SeparableProblem& problem, const Point& point, int& evaluations) {
+  const Projection projection(point, problem.lower);
+  const auto& [fit, blocks, normal] = point;
+  Eigen::Index rows = 0;
+  for (const auto& part : fit.residual) rows += part.size();
+  Eigen::MatrixXd result(rows, static_cast<Eigen::Index>(fit.q.size()));
   for (std::size_t i = 0; i < fit.q.size(); ++i) {
     const ShapeBound& bound = problem.shapes[i];
     double step = kDifference * (bound.upper - bound.lower);
@@ -97,8 +177,13 @@ Eigen::MatrixXd jacobian(const SeparableProblem& problem, const SeparableFit& fi
     if (fit.q[i] + step > bound.upper) step = -step;
     std::vector<double> q = fit.q;
     q[i] += step;
-    result.col(static_cast<Eigen::Index>(i)) =
-        (stacked(solve_linear(problem, q).residual) - residual) / step;
+    const auto moved = problem.assemble(q);
+    std::vector<Eigen::VectorXd> change;
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      change.push_back((residual_of(moved[k], fit.b(moved[k].index)) - fit.residual[k]) / step);
+    }
+    projection.project(change);
+    result.col(static_cast<Eigen::Index>(i)) = stacked(change);
     ++evaluations;
   }
   return result;
@@ -115,23 +200,22 @@ std::vector<double> stepped(const SeparableProblem& problem, const std::vector<d
 }
 
 // Marquardt's damping: raised until the sum of squares falls. False where it no longer does.
-bool improve(const SeparableProblem& problem, SeparableFit& fit, double& damping) {
-  const Eigen::VectorXd residual = stacked(fit.residual);
-  const Eigen::MatrixXd j = jacobian(problem, fit, residual, fit.evaluations);
-  Eigen::MatrixXd hessian = j.transpose() * j;
-  const Eigen::VectorXd gradient = j.transpose() * residual;
+bool improve(const SeparableProblem& problem, Point& point, double& damping) {
+  SeparableFit& fit = point.fit;
+  const Eigen::MatrixXd j = jacobian(problem, point, fit.evaluations);
+  const Eigen::MatrixXd hessian = j.transpose() * j;
+  const Eigen::VectorXd gradient = j.transpose() * stacked(fit.residual);
   const Eigen::VectorXd diagonal = hessian.diagonal().cwiseMax(1e-12 * hessian.trace() + 1e-300);
   for (; damping < kMostDamping; damping *= 10.0) {
     Eigen::MatrixXd damped = hessian;
     damped.diagonal() += damping * diagonal;
     const auto q = stepped(problem, fit.q, -damped.ldlt().solve(gradient));
-    SeparableFit trial = solve_linear(problem, q);
-    trial.evaluations = fit.evaluations + 1;
-    ++fit.evaluations;
-    if (!(trial.sum_of_squares < fit.sum_of_squares)) continue;
+    Point trial = point_at(problem, q);
+    trial.fit.evaluations = ++fit.evaluations;
+    if (!(trial.fit.sum_of_squares < fit.sum_of_squares)) continue;
     const bool worthwhile =
-        fit.sum_of_squares - trial.sum_of_squares > kSmallestGain * fit.sum_of_squares;
-    fit = std::move(trial);
+        fit.sum_of_squares - trial.fit.sum_of_squares > kSmallestGain * fit.sum_of_squares;
+    point = std::move(trial);
     damping = std::max(damping / 10.0, 1e-9);
     return worthwhile;
   }
@@ -140,21 +224,15 @@ bool improve(const SeparableProblem& problem, SeparableFit& fit, double& damping
 
 }  // namespace
 
-SharedColumns::SharedColumns(Eigen::MatrixXd weighted)
-    : columns(std::move(weighted)), gram(gram_of(columns)) {}
+SharedColumns::SharedColumns(Eigen::MatrixXd weighted) : columns(std::move(weighted)) {}
+
+const Eigen::MatrixXd& SharedColumns::gram() const {
+  std::call_once(once_, [this] { gram_ = gram_of(columns); });
+  return gram_;
+}
 
 SeparableFit solve_linear(const SeparableProblem& problem, std::span<const double> q) {
-  SeparableFit fit;
-  fit.q.assign(q.begin(), q.end());
-  const std::vector<SeparableBlock> blocks = problem.assemble(q);
-  fit.b = coefficients(blocks, problem.lower);
-  for (const SeparableBlock& block : blocks) {
-    const Eigen::VectorXd part = fit.b(block.index);
-    fit.residual.push_back(residual_of(block, part));
-    fit.sum_of_squares += fit.residual.back().squaredNorm();
-  }
-  fit.evaluations = 1;
-  return fit;
+  return point_at(problem, q).fit;
 }
 
 Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps) {
@@ -162,16 +240,16 @@ Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_ste
   for (const ShapeBound& shape : problem.shapes) {
     q.push_back(std::clamp(shape.start, shape.lower, shape.upper));
   }
-  SeparableFit fit = solve_linear(problem, q);
-  if (!std::isfinite(fit.sum_of_squares)) {
+  Point point = point_at(problem, q);
+  if (!std::isfinite(point.fit.sum_of_squares)) {
     return failure(ErrorCode::numerics, "the residuals are not finite at the start",
                    "check the recordings for extreme values");
   }
   double damping = 1e-3;
   for (int step = 0; step < most_steps && !q.empty(); ++step) {
-    if (!improve(problem, fit, damping)) break;
+    if (!improve(problem, point, damping)) break;
   }
-  return fit;
+  return std::move(point.fit);
 }
 
 }  // namespace flexspline::estimators

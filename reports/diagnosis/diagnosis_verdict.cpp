@@ -47,19 +47,20 @@ std::string baseline_sentence(const DiagnosisView& view) {
 }
 
 Table causes_table(const DiagnosisView& view) {
-  Table table{"causes",
-              "Missing physics, largest first. The size is the largest contribution, in percent "
-              "of the largest torque; the weight is its model weight among the causes tried, no "
-              "calibrated probability; the hold-out ratio is the misfit with it, beside all the "
-              "others, over the misfit without it, cross-validated, selection not nested.",
-              {{"missing", "", 3},
-               {"size", "", 3},
-               {"unit", "", 3},
-               {"of the largest torque", "%", 2},
-               {"weight", "", 2},
-               {"hold-out ratio", "", 2},
-               {"could as well be", "", 3}},
-              {}};
+  Table table{
+      "causes",
+      "Missing physics, largest first. The size is the largest contribution, in percent "
+      "of the largest torque; the probability is that the name or an alternative is right, "
+      "calibrated on simulated cases; the hold-out ratio is the misfit with it, beside all the "
+      "others, over the misfit without it, cross-validated, selection not nested.",
+      {{"missing", "", 3},
+       {"size", "", 3},
+       {"unit", "", 3},
+       {"of the largest torque", "%", 2},
+       {"probability", "", 2},
+       {"hold-out ratio", "", 2},
+       {"could as well be", "", 3}},
+      {}};
   for (const ShownCause& cause : view.causes) {
     std::string others;
     for (const std::string& one : cause.alternatives) {

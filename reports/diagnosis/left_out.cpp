@@ -11,7 +11,7 @@ constexpr double kSmallestP = 1e-12;  // beyond it nobody knows a noise's tails
 std::string sentence_of(const ShownCause& cause) {
   std::string text = "Missing";
   if (std::isfinite(cause.probability)) {
-    text += ", with a weight of " + digits(cause.probability, 2) + " among the causes tried";
+    text += ", with a probability of " + digits(cause.probability, 2);
   }
   if (std::isfinite(cause.size_fraction)) {
     text += "; at its largest it is ";

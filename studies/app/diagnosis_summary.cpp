@@ -64,7 +64,7 @@ std::string causes_text(const ordered_json& json) {
   if (json["causes"].empty()) return "";
   std::string text =
       fmt::format("\n  {:<28} {:<18} {:<7} {:<9} {:<7}", "missing from the model, largest first",
-                  "size, of the peak", "weight", "hold-out", "folds");
+                  "size, of the peak", "prob.", "hold-out", "folds");
   for (const auto& cause : json["causes"]) text += cause_lines(cause);
   return text;
 }
@@ -78,6 +78,10 @@ std::string where_text(const ordered_json& json) {
                     list[i]["recording"].get<std::string>(), list[i]["says"].get<std::string>());
   }
   return text;
+}
+
+std::string unnamed_text(const ordered_json& json) {
+  return json.contains("unnamed") ? "\n  " + json["unnamed"]["says"].get<std::string>() : "";
 }
 
 std::string how_held_out(const ordered_json& holdout) {
@@ -112,7 +116,8 @@ std::string mistaken_text(const ordered_json& json) {
 std::string summary_of(const studies::Diagnosis& diagnosis) {
   const ordered_json json = studies::to_json(diagnosis);
   std::string text = fmt::format("{}: {}", name_of(diagnosis.verdict), diagnosis.says);
-  text += causes_text(json) + where_text(json) + held_out_line(json) + mistaken_text(json);
+  text += causes_text(json) + where_text(json) + unnamed_text(json) + held_out_line(json) +
+          mistaken_text(json);
   if (diagnosis.next_experiment) text += "\n  record next: " + diagnosis.next_experiment->says;
   return text;
 }

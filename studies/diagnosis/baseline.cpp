@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "diagnosis/low_pass.hpp"
 #include "flexspline/core/cubic_basis.hpp"
 #include "flexspline/core/integrated_basis.hpp"
 
@@ -121,9 +122,7 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
     c.columns.col(f + static_cast<Index>(k)) = (frame.torsion_rate / widths[k]).tanh();
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
-  if (frame.torque_lag > 0.0) {
-    for (auto column : c.columns.colwise()) column = frame.recorded(column.array());
-  }
+  if (frame.torque_lag > 0.0) LowPass(frame, frame.torque_lag).apply(c.columns);
   return c;
 }
 

@@ -9,23 +9,45 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr std::size_t kMostOuterFolds = 3;
-constexpr double kReach = 1.05;  // of what was fitted: beyond it a law is extrapolated
+constexpr double kReach = 1.05;  // of what was fitted: beyond it a smooth law is extrapolated
 
 bool marked(const Frame& frame) {
   return std::ranges::any_of(frame.segments,
                              [](const Segment& s) { return s.split == Split::holdout; });
 }
 
+/// How far rows reach in what a law depends on, and how much further than what it was fitted to it
+/// may be judged.
+struct Reach {
+  ArrayXd of_rows;
+  double most;
+};
+
+// Laws are odd and smooth, but for f of an angle that travels: it is known on neither side by the
+// other, and nowhere beyond.
+std::vector<Reach> reaches(const Frame& f) {
+  std::vector<Reach> list = {
+      {f.torsion_rate.abs(), kReach}, {f.motor_speed.abs(), kReach}, {f.torque.abs(), kReach}};
+  if (f.travels) {
+    const ArrayXd beyond_middle = f.torsion - 0.5 * (f.lowest + f.highest);
+    list.push_back({beyond_middle.max(0.0), 1.0});
+    list.push_back({(-beyond_middle).max(0.0), 1.0});
+  } else {
+    list.push_back({f.torsion.abs(), kReach});
+  }
+  for (Reach& reach : list) reach.of_rows *= f.usable;
+  return list;
+}
+
 // What a law is fitted to has to reach as far as what it is judged on.
 bool reaches_furthest(const Frame& frame, const Segment& s) {
-  ArrayXd others = frame.usable;
+  if (s.first == 0) return true;
+  ArrayXd others = ArrayXd::Ones(frame.rows());
   others.segment(s.first, s.count).setZero();
-  const auto furthest = [&](const ArrayXd& x) {
-    const ArrayXd size = x.abs() * frame.usable;
-    return size.segment(s.first, s.count).maxCoeff() > kReach * (size * others).maxCoeff();
-  };
-  return furthest(frame.torsion) || furthest(frame.torsion_rate) || furthest(frame.motor_speed) ||
-         furthest(frame.torque) || s.first == 0;
+  return std::ranges::any_of(reaches(frame), [&](const Reach& reach) {
+    return reach.of_rows.segment(s.first, s.count).maxCoeff() >
+           reach.most * (reach.of_rows * others).maxCoeff();
+  });
 }
 
 // Segments that reach nowhere furthest, dealt out in the order of their fastest motion.
@@ -53,10 +75,8 @@ ArrayXd ends(const Frame& frame) {
     rows.segment(s.first + s.count - count, count).setOnes();
   }
   const ArrayXd last = rows;
-  for (const ArrayXd* x :
-       {&frame.torsion, &frame.torsion_rate, &frame.motor_speed, &frame.torque}) {
-    const ArrayXd size = x->abs() * frame.usable;
-    rows *= (size <= kReach * (size * (1.0 - last)).maxCoeff()).cast<double>();
+  for (const auto& [of_rows, most] : reaches(frame)) {
+    rows *= (of_rows <= most * (of_rows * (1.0 - last)).maxCoeff()).cast<double>();
   }
   return rows;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/low_pass.hpp"
 #include "diagnosis/middle.hpp"
 
 namespace flexspline::studies {
@@ -32,17 +33,9 @@ double Frame::largest_torque(Equation equation) const {
 
 ArrayXd Frame::filtered(const ArrayXd& signal, double time_constant) const {
   if (!(time_constant > 0.0)) return signal;
-  ArrayXd y(signal.size());
-  for (const Segment& s : segments) {
-    y[s.first] = signal[s.first];
-    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
-      const double step = (time[r] - time[r - 1]) / time_constant;
-      const double kept = std::exp(-step);
-      const double slope = (signal[r] - signal[r - 1]) / step;
-      y[r] = signal[r] - slope + kept * (y[r - 1] - signal[r - 1] + slope);
-    }
-  }
-  return y;
+  Eigen::MatrixXd column = signal.matrix();
+  LowPass(*this, time_constant).apply(column);
+  return column.array();
 }
 
 double Frame::pendulum_moment() const { return pendulum_mass() * pendulum_arm() * kGravity; }

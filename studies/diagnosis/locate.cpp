@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "diagnosis/cause_columns.hpp"
+#include "diagnosis/coordinates.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -52,33 +53,6 @@ Columns grid(const ArrayXd& x, const ArrayXd& y, int count) {
     for (const ArrayXd& cell : bins(y, count, row)) columns.push_back(cell);
   }
   return columns;
-}
-
-/// The speed and acceleration that an equation is about.
-const ArrayXd& speed_of(const Frame& f, Equation equation) {
-  if (equation == Equation::motor) return f.motor_speed;
-  return equation == Equation::load ? f.load_speed : f.torsion_rate;
-}
-const ArrayXd& acceleration_of(const Frame& f, Equation equation) {
-  if (equation == Equation::motor) return f.motor_acceleration;
-  return equation == Equation::load ? f.load_acceleration : f.torsion_acceleration;
-}
-const ArrayXd& position_of(const Frame& f, Equation equation) {
-  if (equation == Equation::motor) return f.motor_angle;
-  return equation == Equation::load ? f.load_angle : f.torsion;
-}
-
-// Way since the last reversal, over the largest way.
-ArrayXd since_reversal(const Frame& f, const ArrayXd& position, const ArrayXd& speed) {
-  ArrayXd way(f.rows());
-  for (const Segment& s : f.segments) {
-    double turned_at = position[s.first];
-    for (Index r = s.first; r < s.first + s.count; ++r) {
-      if (r > s.first && speed[r] * speed[r - 1] <= 0.0) turned_at = position[r];
-      way[r] = std::abs(position[r] - turned_at);
-    }
-  }
-  return way;
 }
 
 Columns by_recording(const Frame& f, const ArrayXd& direction) {

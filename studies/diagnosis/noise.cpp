@@ -16,9 +16,8 @@ using Eigen::Index;
 constexpr Index kHalfNarrow = 25;
 constexpr Index kHalfWide = 80;
 constexpr Index kLags = 40;
-constexpr double kAlike = 0.5;           // autocorrelation
-constexpr Index kFewestRows = 1000;      // of a recording
-constexpr double kFewestCompared = 100;  // rows with those of another cycle
+constexpr double kAlike = 0.5;       // autocorrelation
+constexpr Index kFewestRows = 1000;  // of a recording
 constexpr Index kMostLags = 400;
 
 // Residual less running parabola, where the window fits; segment by segment.
@@ -59,7 +58,7 @@ class RepeatedNoise {
   RepeatedNoise(const Frame& frame, const ArrayXd& residual) {
     for (const ArrayXd& part : unrepeated(frame, residual)) {
       const ArrayXd there = part.isNaN().select(ArrayXd::Zero(part.size()), 1.0);
-      if (there.sum() < kFewestCompared) continue;
+      if (there.sum() < static_cast<double>(kFewestCompared)) continue;
       parts_.push_back({part.isNaN().select(0.0, part), there});
     }
   }
@@ -105,7 +104,7 @@ double rms_of(const ArrayXd& part) {
   for (const double value : part) {
     if (!std::isnan(value)) sum += value * value, count += 1.0;
   }
-  return count < kFewestCompared ? 0.0 : std::sqrt(sum / count);
+  return count < static_cast<double>(kFewestCompared) ? 0.0 : std::sqrt(sum / count);
 }
 
 /// Of the recordings that repeat: the noise, and by how much it is larger than its fast part.

@@ -16,11 +16,14 @@ using Eigen::Index;
 
 constexpr int kSteps = 8;
 
+// What a cause has to lower the error on recordings held out to, over that without it.
+double most_of(const Limits& limits) { return std::sqrt(1.0 - limits.held_out_share); }
+
 // The cause that does worst on recordings held out.
-std::optional<std::size_t> unconfirmed(const Proof& proof, double most) {
+std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
-    if (!(proof.cause_ratio[i] >= most)) continue;
+    if (!(proof.cause_ratio[i] >= most_of(limits))) continue;
     if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;
   }
   return worst;
@@ -163,11 +166,6 @@ bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection
   return gain > limits.unproved * (chi_square + gain);
 }
 
-// The error on recordings held out with a cause over that without it, which no cause may reach.
-double most_of(const Limits& limits, const Selection& s) {
-  return s.remainder ? limits.held_out_of_more : limits.held_out;
-}
-
 // What explains the same signal nearly as well as a cause that fails on recordings held out, if it
 // holds there itself.
 Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Limits& limits,
@@ -187,7 +185,7 @@ Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Lim
   }
   const auto proof = prove(frame, *other, limits.threads);
   if (!proof) return tl::unexpected(proof.error());
-  if (!(proof->cause_ratio.back() < most_of(limits, *other))) return std::nullopt;
+  if (!(proof->cause_ratio.back() < most_of(limits))) return std::nullopt;
   return std::move(*other);
 }
 
@@ -209,7 +207,7 @@ Equation equation_to_prove(const Frame& frame, const Selection& selection) {
 
 Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   const auto folds = folds_of(frame);
-  const auto fits = fit_folds(frame, s, folds, threads);
+  auto fits = fit_folds(frame, s, folds, threads);
   if (!fits) return tl::unexpected(fits.error());
   HeldOut pool = nothing_yet(frame, s);
   for (std::size_t i = 0; i < folds.size(); ++i) take_fold(frame, s, folds[i], (*fits)[i], pool);
@@ -227,6 +225,7 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
   resample_ratio(frame, held, pool.base[e], pool.final[e], h);
   prove_causes(frame, s, pool, held, proof);
+  for (FoldFits& fold : *fits) proof.by_fold.push_back(std::move(fold.final.fit));
   if (e == index_of(Equation::motor)) {
     for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,
                           &proof.rmse_train_after}) {
@@ -240,7 +239,7 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
     auto proof = prove(frame, s, limits.threads);
     if (!proof) return proof;
-    const auto worst = unconfirmed(*proof, most_of(limits, s));
+    const auto worst = unconfirmed(*proof, limits);
     if (!worst) return proof;
     auto exchanged = with_proven_rival(frame, limits, s, *worst);
     if (!exchanged) return tl::unexpected(exchanged.error());
@@ -249,11 +248,10 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
       continue;
     }
     s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
-    const auto left_out =
-        leave_out(frame, limits, s, *worst,
-                  proof->cause_ratio[*worst] < limits.held_out
-                      ? "it hardly lowers the error on recordings held out, and something is left"
-                      : "it does not lower the error on recordings held out");
+    const auto left_out = leave_out(frame, limits, s, *worst,
+                                    proof->cause_ratio[*worst] < 1.0
+                                        ? "it hardly lowers the error on recordings held out"
+                                        : "it does not lower the error on recordings held out");
     if (!left_out) return tl::unexpected(left_out.error());
   }
 }

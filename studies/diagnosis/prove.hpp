@@ -22,6 +22,7 @@ struct Proof {
   /// rows: where held out by the fits that did not see them, else by those to all recordings.
   Eigen::ArrayXd before;
   Eigen::ArrayXd after;
+  std::vector<ModelFit> by_fold;  ///< the final model, by fold of folds_of, fitted without its rows
 };
 /// The same for any number of threads; 0: as many as the machine has.
 Result<Proof> prove(const Frame& frame, const Selection& selection, unsigned threads);

@@ -11,7 +11,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr Index kCompared = 100;   // rows at least
 constexpr double kGone = 0.5;      // of the mean square between two rows anywhere: it has gone away
 constexpr double kExactly = 1e-4;  // of the same: it is back
 constexpr double kOnce = 4.0;      // of a mean square, what a single row may miss by
@@ -28,7 +27,7 @@ double missed(const ArrayXd& motion, Index lag, Index rows) {
   return (motion.tail(rows) - motion.segment(n - lag - rows, rows)).square().mean();
 }
 
-Index rows_of_last(Index lag) { return std::max(kCompared, lag / 2); }
+Index rows_of_last(Index lag) { return std::max(kFewestCompared, lag / 2); }
 
 // The first return: the best between going away and going away again.
 Index period_of(const ArrayXd& motion, double anywhere) {
@@ -47,7 +46,7 @@ Index period_of(const ArrayXd& motion, double anywhere) {
 }  // namespace
 
 Repeat repeat_of(const ArrayXd& motion) {
-  if (motion.size() <= kCompared) return {};
+  if (motion.size() <= kFewestCompared) return {};
   const double anywhere = 2.0 * (motion - motion.mean()).square().mean();
   if (!(anywhere > 0.0)) return {};
   Repeat repeat{period_of(motion, anywhere), 0};
@@ -59,7 +58,7 @@ Repeat repeat_of(const ArrayXd& motion) {
     if (std::pow(motion[r + repeat.period] - motion[r], 2) > most) break;
     ++repeat.rows;
   }
-  return repeat.rows < kCompared ? Repeat{} : repeat;
+  return repeat.rows < kFewestCompared ? Repeat{} : repeat;
 }
 
 std::vector<ArrayXd> unrepeated(const Frame& frame, const ArrayXd& residual) {

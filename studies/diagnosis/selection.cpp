@@ -28,6 +28,17 @@ Accepted accepted_as(Trial trial, const Limits& limits) {
   return accepted;
 }
 
+// The best, or a part of the baseline beside which it gains less than a name has to.
+std::size_t chosen(const std::vector<Trial>& trials, const Limits& limits) {
+  const auto may_be = [&](const Trial& trial) { return admissible(trial, limits); };
+  const auto best = std::ranges::find_if(trials, may_be);
+  const auto part = std::ranges::find_if(trials, [&](const Trial& trial) {
+    return may_be(trial) && trial.cause.row->of_baseline() &&
+           trial.gain > best->gain - limits.named_gain;
+  });
+  return static_cast<std::size_t>((part != trials.end() ? part : best) - trials.begin());
+}
+
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
   Accepted accepted = accepted_as(std::move(trials[best]), limits);
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -79,15 +90,13 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
   for (int round = 0; round < limits.rounds; ++round) {
     if (progress) progress(0.2 + 0.07 * round, fmt::format("trying causes, round {}", round + 1));
     auto trials = try_causes(frame, s.final, limits.threads);
-    const auto best =
-        std::ranges::find_if(trials, [&](const Trial& trial) { return admissible(trial, limits); });
-    if (best == trials.end()) {
+    const std::size_t best = chosen(trials, limits);
+    if (best == trials.size()) {
       s.last_field = std::move(trials);
       return {};
     }
-    s.final.fit = best->fit;
-    s.accepted.push_back(
-        accept(std::move(trials), static_cast<std::size_t>(best - trials.begin()), limits));
+    s.final.fit = trials[best].fit;
+    s.accepted.push_back(accept(std::move(trials), best, limits));
     const auto again = refresh(frame, s.final, kRefreshSteps);
     if (!again) return again;
   }

@@ -32,8 +32,7 @@ struct Limits {
   double misfit = 1.5;      ///< mean square over noise that counts as explained
   double unordered = 2.5;   ///< and that is something left, whatever orders it
   double unproved = 0.25;   ///< share of the misfit that an unproved cause cannot take quietly
-  double held_out = 1.0;    ///< error on recordings held out with a cause over without it
-  double held_out_of_more = 0.97;  ///< the same where something is left, which it may stand for
+  double held_out_share = 0.04;  ///< least share that a cause explains of the mean square held out
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in
                            ///< for something without a name
   double beyond_noise = 1.4142;  ///< held-out error over noise: more, and the model's own error is

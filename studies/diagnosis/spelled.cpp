@@ -32,19 +32,6 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
   return ids;
 }
 
-// Share of belief among the causes of one round: net gains as log likelihoods, halved, so that no
-// rival is written off for a misfit of form alone.
-double belief(const Accepted& accepted) {
-  double others = 0.0;
-  for (const auto* list : {&accepted.rivals, &accepted.field}) {
-    for (const Trial& t : *list) {
-      if (t.cause.row == nullptr) continue;
-      others += std::exp(-0.25 * std::max(accepted.trial.net_gain - t.net_gain, 0.0));
-    }
-  }
-  return 1.0 / (1.0 + others);
-}
-
 /// Which torque a size is a fraction of, and how large that is.
 struct SizeOf {
   double fraction = 0.0;
@@ -190,7 +177,6 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     const std::size_t at = s.immaterial.size() + i;
     Cause cause;
     cause.effect = a.trial.cause.row->id;
-    cause.probability = belief(a);
     const SizeOf size = size_of(frame, s.final, at);
     cause.size_fraction = size.fraction;
     cause.size = size.size;

@@ -22,7 +22,6 @@ Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleName& name)
   const RippleProof& proof = name.proof;
   Cause cause;
   cause.effect = name.row->id;
-  cause.probability = 1.0 / static_cast<double>(1 + name.others.size());
   cause.size_fraction = ripple.amplitude / frame.torque_range;
   cause.equation = name.form->equation;
   cause.size = ripple.amplitude;

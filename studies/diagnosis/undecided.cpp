@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/experiment.hpp"
+
 namespace flexspline::studies {
 namespace {
 
@@ -60,6 +62,35 @@ std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accep
   return finding(*trial.cause.row, fmt::format("of {:.0f} % of the largest torque", 100.0 * size));
 }
 
+// Share of the variance of the measured torque that the final model follows, in the equation to
+// prove.
+double share_followed(const Frame& frame, const Selection& s) {
+  const Equation equation = equation_to_prove(frame, s);
+  const ArrayXd& torque = equation == Equation::motor ? frame.motor_torque : frame.torque;
+  const double rows = frame.usable.sum();
+  const double mean = (torque * frame.usable).sum() / rows;
+  const double variance = ((torque - mean).square() * frame.usable).sum();
+  const double left = (s.final.fit.residual[index_of(equation)].square() * frame.usable).sum();
+  return variance > 0.0 ? 1.0 - left / variance : 0.0;
+}
+
+Undecidable of_one_loop(const Frame& frame, Verdict verdict) {
+  std::string says = "Cannot be decided with these data: ";
+  says += verdict == Verdict::adequate
+              ? "the baseline follows this one loop, but at one amplitude and one rate viscous "
+                "damping and a memory without rate look the same."
+              : "this one loop differs from the baseline, but one amplitude and one rate do not "
+                "tell one cause from another.";
+  return {std::move(says), {}, another_rate(frame)};
+}
+
+Undecidable of_noise(double followed) {
+  return {
+      fmt::format("Cannot be decided with these data: the torque is mostly noise, as the model "
+                  "follows {:.0f} % of its variance.",
+                  100.0 * std::max(followed, 0.0))};
+}
+
 }  // namespace
 
 Result<Diagnosis> mistaken_diagnosis(const RecordingSet& set, std::vector<SanityFinding> findings) {
@@ -73,11 +104,10 @@ Result<Diagnosis> mistaken_diagnosis(const RecordingSet& set, std::vector<Sanity
   d.display = set.display;
   d.notes = set.notes;
   d.baseline_model = "none: nothing was fitted";
-  const std::string says = fmt::format(
+  std::string says = fmt::format(
       "Cannot be decided: the recordings look mistaken, so that no physics is read out of them. {}",
       findings.front().message());
-  d.mistaken = std::move(findings);
-  make_undecided(says, d);
+  make_undecided({std::move(says), std::move(findings)}, d);
   return d;
 }
 
@@ -95,21 +125,30 @@ std::vector<SanityFinding> implausible(const Frame& frame, const Selection& s,
   return list;
 }
 
-double share_followed(const Frame& frame, const Selection& s) {
-  const Equation equation = equation_to_prove(frame, s);
-  const ArrayXd& torque = equation == Equation::motor ? frame.motor_torque : frame.torque;
-  const double rows = frame.usable.sum();
-  const double mean = (torque * frame.usable).sum() / rows;
-  const double variance = ((torque - mean).square() * frame.usable).sum();
-  const double left = (s.final.fit.residual[index_of(equation)].square() * frame.usable).sum();
-  return variance > 0.0 ? 1.0 - left / variance : 0.0;
+std::optional<Undecidable> undecidable(const Frame& frame, const Selection& s, Verdict verdict,
+                                       const Limits& limits) {
+  if (auto findings = implausible(frame, s, limits); !findings.empty()) {
+    std::string says =
+        fmt::format("Cannot be decided: a channel looks mistaken. {}", findings.front().message());
+    return Undecidable{std::move(says), std::move(findings)};
+  }
+  if (one_loop(frame)) return of_one_loop(frame, verdict);
+  const bool unnamed = verdict == Verdict::adequate || verdict == Verdict::unexplained;
+  const double followed = share_followed(frame, s);
+  if (unnamed && followed < limits.least_told) return of_noise(followed);
+  return std::nullopt;
 }
 
-void make_undecided(std::string says, Diagnosis& d) {
+void make_undecided(Undecidable why, Diagnosis& d) {
   d.verdict = Verdict::undecided;
   d.causes.clear();
   d.model.reset();
-  d.says = std::move(says);
+  d.unnamed.reset();
+  d.says = std::move(why.says);
+  d.mistaken = std::move(why.mistaken);
+  if (!why.experiment) return;
+  d.experiments = {*why.experiment};
+  d.next_experiment = std::move(why.experiment);
 }
 
 }  // namespace flexspline::studies

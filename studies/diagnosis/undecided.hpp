@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "diagnosis/finding.hpp"
 
@@ -18,11 +20,19 @@ Result<Diagnosis> mistaken_diagnosis(const RecordingSet& set,
 std::vector<data::SanityFinding> implausible(const Frame& frame, const Selection& selection,
                                              const Limits& limits);
 
-/// Share of the variance of the measured torque that the final model follows, in the equation to
-/// prove.
-double share_followed(const Frame& frame, const Selection& selection);
+/// Why recordings decide nothing, whatever was found in them.
+struct Undecidable {
+  std::string says;
+  std::vector<data::SanityFinding> mistaken{};
+  std::optional<NextExperiment> experiment{};  ///< that would decide
+};
+
+/// Causes that are no physics; one loop of one amplitude and one rate; no name and a torque whose
+/// variance the model does not follow.
+std::optional<Undecidable> undecidable(const Frame& frame, const Selection& selection,
+                                       Verdict verdict, const Limits& limits);
 
 /// Takes causes and certainty out of a diagnosis that cannot be decided.
-void make_undecided(std::string says, Diagnosis& diagnosis);
+void make_undecided(Undecidable why, Diagnosis& diagnosis);
 
 }  // namespace flexspline::studies

@@ -149,6 +149,35 @@ Json notes_json(const Diagnosis& diagnosis) {
   return list;
 }
 
+Json axis_json(const Diagnosis& diagnosis, const TableAxis& axis) {
+  const auto [factor, unit] = shown_unit(diagnosis, axis.unit);
+  Json values = Json::array();
+  for (const double value : axis.values) values.push_back(number(factor * value));
+  return {{"coordinate", axis.coordinate}, {"unit", unit}, {"values", std::move(values)}};
+}
+
+Json unnamed_json(const Diagnosis& diagnosis, const UnnamedPart& part) {
+  Json coordinates = Json::array(), axes = Json::array();
+  for (const TableAxis& axis : part.axes) {
+    coordinates.push_back(axis.coordinate);
+    axes.push_back(axis_json(diagnosis, axis));
+  }
+  const auto [factor, unit] = shown_unit(diagnosis, "Nm");
+  Json torque = Json::array();
+  for (const double value : part.torque) torque.push_back(number(factor * value));
+  return {{"coordinates", std::move(coordinates)},
+          {"equation", part.equation},
+          {"evidence", number(part.evidence)},
+          {"size_fraction", number(part.size_fraction)},
+          {"share", number(part.share)},
+          {"holdout_ratio", number(part.holdout_ratio)},
+          {"ci95", Json::array({number(part.ci95_lower), number(part.ci95_upper)})},
+          {"table", {{"axes", std::move(axes)}, {"torque", std::move(torque)}, {"unit", unit}}},
+          {"proposed_equation",
+           part.proposed_equation.empty() ? Json(nullptr) : Json(part.proposed_equation)},
+          {"says", part.says}};
+}
+
 /// An amplitude of a linear specimen is no angle: amplitude_deg is null there.
 Json experiment_json(const NextExperiment& next, const Diagnosis& diagnosis) {
   const bool linear = is_linear(diagnosis);
@@ -210,6 +239,7 @@ Json to_json(const Diagnosis& diagnosis) {
   if (diagnosis.next_experiment) {
     json["next_experiment"] = experiment_json(*diagnosis.next_experiment, diagnosis);
   }
+  if (diagnosis.unnamed) json["unnamed"] = unnamed_json(diagnosis, *diagnosis.unnamed);
   json["quick"] = diagnosis.quick;
   json["units"] = units_json(diagnosis);
   json["tried"] = list_of(diagnosis.tried, tried_json);

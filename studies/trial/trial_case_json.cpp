@@ -20,6 +20,19 @@ ordered_json cause_json(const Cause& cause) {
           {"delta_bic", cause.evidence.delta_bic}};
 }
 
+ordered_json unnamed_json(const UnnamedPart& part) {
+  ordered_json coordinates = ordered_json::array();
+  for (const TableAxis& axis : part.axes) coordinates.push_back(axis.coordinate);
+  return {{"coordinates", std::move(coordinates)},
+          {"equation", part.equation},
+          {"evidence", part.evidence},
+          {"size_fraction", part.size_fraction},
+          {"share", part.share},
+          {"holdout_ratio", part.holdout_ratio},
+          {"ci95", {part.ci95_lower, part.ci95_upper}},
+          {"proposed_equation", part.proposed_equation}};
+}
+
 ordered_json mismatch_json(const Mismatch& mismatch) {
   return {{"recording", mismatch.recording},
           {"coordinate", mismatch.coordinate},
@@ -125,6 +138,7 @@ ordered_json excerpt_of(const Diagnosis& diagnosis) {
                          {"noise_floor", diagnosis.holdout.noise_floor}}},
                        {"notes", diagnosis.notes}};
   for (const Cause& cause : diagnosis.causes) json["causes"].push_back(cause_json(cause));
+  if (diagnosis.unnamed) json["unnamed"] = unnamed_json(*diagnosis.unnamed);
   for (const Mismatch& mismatch : diagnosis.mismatch) {
     json["mismatch"].push_back(mismatch_json(mismatch));
   }

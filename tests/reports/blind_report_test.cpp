@@ -108,6 +108,29 @@ TEST(DiagnosisReport, ShowsNumbersThatDoNotExistAsDashes) {
   EXPECT_TRUE(contains(markup, "<td class=\"n\">–</td>"));
 }
 
+TEST(DiagnosisReport, DrawsWhatIsLeftWithoutAName) {
+  const StudyFolder folder("diagnosis_fixture");
+  const auto unnamed = ordered_json::parse(R"({
+    "coordinates": ["torsion", "velocity"], "equation": "torsion", "share": 0.8,
+    "holdout_ratio": 0.6, "ci95": [0.5, 0.7], "proposed_equation": null, "says": "<b>Left</b>",
+    "table": {"unit": "Nm", "torque": [1, 2, 3, 4, 5, 6],
+              "axes": [{"coordinate": "torsion", "unit": "deg", "values": [-1, 0, 1]},
+                       {"coordinate": "velocity", "unit": "deg/s", "values": [-2, 2]}]}})");
+  change(folder, "diagnosis.json", [&](ordered_json& json) { json["unnamed"] = unnamed; });
+  ASSERT_TRUE(write_report(folder.path()));
+  const ordered_json series = figure_of(folder, "unnamed")["frames"][0]["panels"][0]["series"];
+  ASSERT_EQ(series.size(), 2u) << "a line a knot of the second coordinate";
+  EXPECT_EQ(series[1]["name"], "velocity 2 deg/s");
+  EXPECT_EQ(series[1]["x"], ordered_json::parse("[-1, 0, 1]"));
+  EXPECT_EQ(series[1]["y"], ordered_json::parse("[2, 4, 6]"));
+  EXPECT_FALSE(contains(markup_of(folder.text("index.html")), "<b>Left"));
+
+  change(folder, "diagnosis.json",
+         [](ordered_json& json) { json["unnamed"]["table"]["torque"].erase(0); });
+  ASSERT_TRUE(write_report(folder.path()));
+  EXPECT_TRUE(figure_of(folder, "unnamed").is_null()) << "numbers that do not fit their axes";
+}
+
 TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
   const StudyFolder folder("diagnosis_fixture");
   change(folder, "diagnosis.json", [](ordered_json& json) {

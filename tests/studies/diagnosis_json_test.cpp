@@ -166,6 +166,32 @@ TEST(DiagnosisJson, WritesWhatWasNotComputedAsNull) {
   }
 }
 
+// Angles of a table in degrees, its torque as it is; a formula stays in SI.
+TEST(DiagnosisJson, HasWhatIsLeftWithoutANameWhereATableShowsIt) {
+  Diagnosis diagnosis = example();
+  EXPECT_FALSE(to_json(diagnosis).contains("unnamed"));
+  UnnamedPart part;
+  part.axes = {{"torsion", "rad", {-kDegree, kDegree}}, {"direction", "1", {-1.0, 1.0}}};
+  part.torque = {1.0, 2.0, 3.0, 4.0};
+  part.holdout_ratio = 0.4;
+  diagnosis.unnamed = part;
+  ordered_json json = to_json(diagnosis)["unnamed"];
+  expect_keys(json, {"coordinates", "share", "holdout_ratio", "table", "proposed_equation"});
+  EXPECT_EQ(json["coordinates"], (ordered_json{"torsion", "direction"}));
+  EXPECT_NEAR(json["table"]["axes"][0]["values"][1].get<double>(), 1.0, 1e-15);
+  EXPECT_EQ(json["table"]["axes"][0]["unit"], "deg");
+  EXPECT_EQ(json["table"]["axes"][1]["values"], (ordered_json{-1.0, 1.0}));
+  EXPECT_EQ(json["table"]["torque"], (ordered_json{1.0, 2.0, 3.0, 4.0}));
+  EXPECT_TRUE(json["proposed_equation"].is_null());
+  EXPECT_TRUE(json["share"].is_null()) << "not computed";
+  diagnosis.unnamed->proposed_equation = "tau += 2 phi";
+  diagnosis.display = {"mm", "N"};
+  json = to_json(diagnosis)["unnamed"];
+  EXPECT_EQ(json["proposed_equation"], "tau += 2 phi");
+  EXPECT_EQ(json["table"]["axes"][0]["unit"], "m");
+  EXPECT_EQ(json["table"]["unit"], "N");
+}
+
 TEST(DiagnosisJson, HoldsTheModelToTheLastBitWhereThereIsOne) {
   Diagnosis diagnosis;
   EXPECT_TRUE(to_json(diagnosis)["model"].is_null());

@@ -79,6 +79,20 @@ TEST(HeldOut, OneThatOthersReachNearlyMayBeItToo) {
   EXPECT_EQ(held.sum(), 1500.0) << "the third reaches too far";
 }
 
+// A free f is known on neither side by the other, an odd one on both.
+TEST(HeldOut, OfAnAngleThatTravelsWhatTheRestReachesOnThatSide) {
+  Frame f = three_recordings();
+  for (ArrayXd* x : {&f.torsion_rate, &f.motor_speed, &f.torque}) *x = ArrayXd::Ones(6000);
+  f.torsion.head(3000) = ArrayXd::LinSpaced(3000, -0.5, 1.0);
+  f.torsion.segment(3000, 1500) = ArrayXd::LinSpaced(1500, -0.9, 0.5);
+  f.torsion.tail(1500) = ArrayXd::LinSpaced(1500, -0.4, 0.4);
+  f.measure_torsion();
+  EXPECT_EQ(held_out(f).sum(), 3000.0);
+  f.travels = true;
+  EXPECT_EQ(held_out(f).sum(), 1500.0);
+  EXPECT_EQ(held_out(f).tail(1500).minCoeff(), 1.0);
+}
+
 // Nine recordings, the first of which reaches furthest in everything.
 TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
   Frame f = closed_form_frame(9000);

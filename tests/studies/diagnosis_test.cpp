@@ -37,6 +37,13 @@ TEST(Diagnose, SaysThatSomethingIsLeftWhereNothingOrdersIt) {
   const Diagnosis d = diagnosed(bench.recordings);
   EXPECT_EQ(d.verdict, Verdict::unexplained);
   EXPECT_TRUE(d.causes.empty());
+  // A table over two coordinates shows it, and says the law it was made by.
+  ASSERT_TRUE(d.unnamed);
+  ASSERT_EQ(d.unnamed->axes.size(), 2U);
+  EXPECT_EQ(d.unnamed->axes[0].coordinate, "velocity");
+  EXPECT_EQ(d.unnamed->axes[1].coordinate, "torsion");
+  EXPECT_TRUE(d.unnamed->proposed_equation.ends_with(" w phi")) << d.unnamed->proposed_equation;
+  EXPECT_LT(d.unnamed->holdout_ratio, 0.8);
 }
 
 class DiagnoseVisible : public testing::TestWithParam<Bench> {};

@@ -26,7 +26,7 @@ class Rivals : public testing::Test {
     auto made = make_frame(hidden.recordings, kRows);
     ASSERT_TRUE(made) << made.error().message();
     frame_ = std::move(*made);
-    limits_.held_out = limits_.held_out_of_more = 0.8;
+    limits_.held_out_share = 0.36;
   }
 
   // Causes tried on the baseline, the hidden one first, the least of the others behind it.

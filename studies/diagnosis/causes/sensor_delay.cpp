@@ -63,7 +63,7 @@ std::vector<double> small_both(const Frame& f) { return {0.01 / f.fastest(), 0.1
 
 void behind_a_filter(Frame& f, Values shape) {
   travel_of_then(f, shape);
-  f.torque_lag = shape[1];
+  f.torque_lag += shape[1];
 }
 
 // The smooth part as it is d later, with the noise of the sample itself.

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,13 @@ struct SharedColumns {
   explicit SharedColumns(Eigen::MatrixXd weighted);
 
   Eigen::MatrixXd columns;
-  Eigen::MatrixXd gram;  ///< columns^T columns
+
+  /// columns^T columns, computed when it is first asked for.
+  const Eigen::MatrixXd& gram() const;
+
+ private:
+  mutable std::once_flag once_;
+  mutable Eigen::MatrixXd gram_;
 };
 
 /// Rows of a separable problem that share their columns: target - [shared columns] b(index), all
@@ -54,8 +61,9 @@ struct SeparableFit {
 /// b alone, at shapes given.
 SeparableFit solve_linear(const SeparableProblem& problem, std::span<const double> q);
 
-/// Shapes by Levenberg and Marquardt on the projected residual, its Jacobian by differences of
-/// 1e-4 of each shape's range; at most that many steps. Local: from the start given.
+/// Shapes by Levenberg and Marquardt on the projected residual, its Jacobian after Kaufman (BIT 15,
+/// 1975) by differences of 1e-4 of each shape's range; at most that many steps. Local: from the
+/// start given.
 /// Errors: numerics where the start gives no numbers.
 Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps);
 

@@ -58,6 +58,18 @@ struct ShownMove {
   double std = kAbsent;
 };
 
+struct ShownTableAxis {
+  std::string coordinate, unit;
+  std::vector<double> values;
+};
+
+/// What the model leaves as a table over one or two coordinates, without a name.
+struct ShownUnnamed {
+  std::vector<ShownTableAxis> axes;
+  std::vector<double> torque;  ///< at the knots, the last axis fastest
+  std::string torque_unit, formula, says;
+};
+
 /// A recording along one equation: measured, and modelled without and with what was left out.
 struct ShownSeries {
   std::string recording, equation;
@@ -96,6 +108,7 @@ struct DiagnosisView {
   std::vector<ShownConfusable> confusable;
   std::vector<ShownCandidate> tried;
   std::vector<ShownMove> moved;
+  std::optional<ShownUnnamed> unnamed;
   std::optional<ShownExperiment> next;
   std::vector<ShownSeries> series;
   std::vector<ShownFinding> findings;

@@ -57,8 +57,8 @@ struct CauseEvidence {
 /// An effect that was left out of the baseline.
 struct Cause {
   std::string effect;
-  /// Share among the causes tried, net gains taken as log likelihoods and quartered. Not
-  /// calibrated: shown as a weight.
+  /// That it or one of its alternatives is right, calibrated on simulated cases of two generators
+  /// (docs/decisions/0023).
   double probability = kNotComputed;
   double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
   double size = kNotComputed;           ///< the same, SI
@@ -124,6 +124,28 @@ struct ParameterMove {
   std::string unit;
 };
 
+/// A coordinate of a table and the knots between which the table is linear, SI.
+struct TableAxis {
+  std::string coordinate;
+  std::string unit;
+  std::vector<double> values;
+};
+
+/// What the model leaves, as a function of one or two coordinates that has no name.
+struct UnnamedPart {
+  std::vector<TableAxis> axes;
+  std::vector<double> torque;  ///< at the knots, the last axis fastest; Nm at the equation's shaft
+  std::string equation;        ///< torsion, load, motor
+  double evidence = kNotComputed;       ///< log evidence over that of noise alone, nats
+  double size_fraction = kNotComputed;  ///< largest value in the rows over the largest torque
+  double share = kNotComputed;  ///< of the mean square beyond noise that the model leaves, held out
+  double holdout_ratio = kNotComputed;  ///< rms with it over rms without it, on rows held out
+  double ci95_lower = kNotComputed;
+  double ci95_upper = kNotComputed;
+  std::string proposed_equation{};  ///< a formula that follows the table; empty: none does
+  std::string says{};
+};
+
 /// Series of one recording for the picture, decimated. SI.
 struct DiagnosedSeries {
   std::string recording;
@@ -150,6 +172,8 @@ struct Diagnosis {
   HoldoutProof holdout;
   std::optional<HoldoutProof>
       cross_validated;  ///< not nested, of the recordings searched, where holdout is nested
+  /// Where something is left without a name, and a table lowers the error on recordings held out.
+  std::optional<UnnamedPart> unnamed;
   std::optional<NextExperiment> next_experiment;  ///< the first of experiments
   std::vector<NextExperiment> experiments;        ///< one a pair of causes, the largest first
   std::vector<DiagnosedSeries> series;

@@ -1,0 +1,119 @@
+#include "diagnosis/decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "diagnosis/experiment.hpp"
+#include "diagnosis/explanation.hpp"
+#include "diagnosis/folds.hpp"
+#include "diagnosis/unnamed.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr Eigen::Index kMostRows = 16000;
+
+// Of a whole: what is done after another part of it.
+DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
+  if (!progress) return {};
+  return [progress, from, to](double share, std::string_view stage) {
+    progress(from + share * (to - from), stage);
+  };
+}
+
+// Motions, rates and torques of the recordings that may be searched.
+Result<Frame> searched_frame(const RecordingSet& all, const std::vector<std::string>& holdout) {
+  if (holdout.empty()) return make_frame(all, kMostRows);
+  const auto rest = without(all, holdout);
+  if (!rest) return tl::unexpected(rest.error());
+  return make_frame(*rest, kMostRows);
+}
+
+// On recordings that were taken away before anything was looked for.
+Result<void> prove_once(const RecordingSet& all, const std::vector<std::string>& holdout,
+                        Decision& d) {
+  auto once = judged_once(all, holdout, d.finding, kMostRows);
+  if (!once) return tl::unexpected(once.error());
+  d.cross_validated = d.proof;
+  d.proof = std::move(once->proof);
+  d.taken_away = std::move(once->series);
+  return {};
+}
+
+// The whole search again in outer folds. Recordings that are too few to be searched without a part
+// of them are no failure.
+void prove_in_folds(const RecordingSet& all, const Limits& limits,
+                    const DiagnosisProgress& progress, Decision& d) {
+  if (one_loop(d.finding.frame)) return;
+  auto nested = nested_proof(all, d.finding, limits, kMostRows, progress);
+  if (!nested) {
+    d.notes.push_back(
+        fmt::format("nothing is proved in outer folds: {}", nested.error().message()));
+    return;
+  }
+  d.cross_validated = d.proof;
+  d.proof = nested->proof;
+  d.nested = std::move(*nested);
+}
+
+// More than noise is left where the model's own error is larger than the noise, and no trifle.
+bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& limits) {
+  const double own =
+      std::sqrt(std::max(h.rmse_after * h.rmse_after - h.noise_floor * h.noise_floor, 0.0));
+  return h.over_noise() > limits.beyond_noise && own > limits.beyond_size * frame.torque_range;
+}
+
+bool is_something_left(const Decision& d, const Limits& limits) {
+  const auto& [frame, selection, proof] = d.finding;
+  return selection.remainder || !frame.incidents.empty() ||
+         left_unnamed(selection, limits) != nullptr || is_beyond_noise(frame, d.proof, limits) ||
+         (d.cross_validated && is_beyond_noise(frame, *d.cross_validated, limits));
+}
+
+Verdict verdict_of(const Decision& d, const Limits& limits) {
+  const bool left = is_something_left(d, limits);
+  const bool named = !d.finding.selection.accepted.empty() || (d.ripple && d.ripple->name);
+  if (named) return left ? Verdict::partly_explained : Verdict::explained;
+  return left ? Verdict::unexplained : Verdict::adequate;
+}
+
+}  // namespace
+
+Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settings,
+                        const Limits& limits, const DiagnosisProgress& progress) {
+  auto frame = searched_frame(all, settings.holdout);
+  if (!frame) return tl::unexpected(frame.error());
+
+  // Noise, baseline, discrepancy, names, and the folds that choose among them. Each outer fold's
+  // search is taken for as long as that in all recordings.
+  const bool nests = settings.nested && settings.holdout.empty();
+  const auto searches = 1 + (nests ? outer_folds(*frame).size() : 0);
+  const double searched = 0.9 / static_cast<double>(searches);
+  auto finding = find_causes(std::move(*frame), limits, part_of(progress, 0.0, searched / 0.9));
+  if (!finding) return tl::unexpected(finding.error());
+  Decision d;
+  d.finding = std::move(*finding);
+  d.proof = d.finding.proof.holdout;
+  d.ripple = find_ripple(d.finding.frame, d.finding.selection, limits);
+
+  // Proof.
+  if (nests) prove_in_folds(all, limits, part_of(progress, searched, 0.9), d);
+  if (!settings.holdout.empty()) {
+    const auto judged = prove_once(all, settings.holdout, d);
+    if (!judged) return tl::unexpected(judged.error());
+  }
+
+  // Abstention, and a model of what is left.
+  if (progress) progress(0.9, "comparing the candidates");
+  d.verdict = verdict_of(d, limits);
+  if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
+    d.unnamed = unnamed_part(d.finding.frame, d.finding.selection, d.finding.proof, limits);
+  }
+  d.undecided = undecidable(d.finding.frame, d.finding.selection, d.verdict, limits);
+  if (d.undecided) d.verdict = Verdict::undecided;
+  return d;
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,51 @@
+#include "diagnosis/low_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace flexspline::studies {
+
+using Eigen::Index;
+
+namespace {
+constexpr Index kTogether = 8;  // columns: each waits for its own last row, not for another's
+}
+
+LowPass::LowPass(const Frame& frame, double time_constant)
+    : segments_(frame.segments), now_(frame.rows()), before_(frame.rows()), kept_(frame.rows()) {
+  for (const Segment& s : segments_) {
+    now_[s.first] = 1.0, before_[s.first] = 0.0, kept_[s.first] = 0.0;
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+      const double step = (frame.time[r] - frame.time[r - 1]) / time_constant;
+      const double settled = -std::expm1(-step);
+      const double mean = settled / step;
+      now_[r] = 1.0 - mean;
+      before_[r] = mean - (1.0 - settled);
+      kept_[r] = 1.0 - settled;
+    }
+  }
+}
+
+void LowPass::apply(Eigen::Ref<Eigen::MatrixXd> columns) const {
+  for (Index first = 0; first < columns.cols(); first += kTogether) {
+    const auto count = static_cast<std::size_t>(std::min(kTogether, columns.cols() - first));
+    std::array<double*, kTogether> column{};
+    for (std::size_t k = 0; k < count; ++k) {
+      column[k] = columns.col(first + static_cast<Index>(k)).data();
+    }
+    for (const Segment& s : segments_) {
+      std::array<double, kTogether> x{}, y{};
+      for (Index r = s.first; r < s.first + s.count; ++r) {
+        for (std::size_t k = 0; k < count; ++k) {
+          const double now = column[k][r];
+          y[k] = now_[r] * now + before_[r] * x[k] + kept_[r] * y[k];
+          x[k] = now;
+          column[k][r] = y[k];
+        }
+      }
+    }
+  }
+}
+
+}  // namespace flexspline::studies
