@@ -121,7 +121,7 @@ TEST(DiagnosisReport, DrawsWhatIsLeftWithoutAName) {
   const ordered_json series = figure_of(folder, "unnamed")["frames"][0]["panels"][0]["series"];
   ASSERT_EQ(series.size(), 2u) << "a line a knot of the second coordinate";
   EXPECT_EQ(series[1]["name"], "velocity 2 deg/s");
-  EXPECT_EQ(series[1]["x"], ordered_json::parse("[-1, 0, 1]"));
+  EXPECT_EQ(series[0]["x"], ordered_json::parse("[-1, 0, 1]"));
   EXPECT_EQ(series[1]["y"], ordered_json::parse("[2, 4, 6]"));
   EXPECT_FALSE(contains(markup_of(folder.text("index.html")), "<b>Left"));
 

@@ -37,7 +37,15 @@ TEST(Diagnose, SaysThatSomethingIsLeftWhereNothingOrdersIt) {
   const Diagnosis d = diagnosed(bench.recordings);
   EXPECT_EQ(d.verdict, Verdict::unexplained);
   EXPECT_TRUE(d.causes.empty());
-  // A table over two coordinates shows it, and says the law it was made by.
+  EXPECT_FALSE(d.unnamed) << "no table of it is proved on recordings held out";
+}
+
+// The same three times as large: a table over two coordinates shows it and says its law.
+TEST(Diagnose, ShowsAsATableWhatHasNoName) {
+  const auto bench = drawn_case(Rig::specimen, 405, {{"unknown:cross", 0.075}});
+  const Diagnosis d = diagnosed(bench.recordings);
+  EXPECT_EQ(d.verdict, Verdict::unexplained);
+  EXPECT_TRUE(d.causes.empty());
   ASSERT_TRUE(d.unnamed);
   ASSERT_EQ(d.unnamed->axes.size(), 2U);
   EXPECT_EQ(d.unnamed->axes[0].coordinate, "velocity");
