@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/calibrated.hpp"
-#include "diagnosis/decision.hpp"
+#include "diagnosis/diagnosed.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
@@ -108,22 +108,6 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   return d;
 }
 
-Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& progress,
-                            const DiagnosisSettings& settings) {
-  if (progress) progress(0.0, "smoothing the motions");
-  auto mistaken = data::sanity_of(all);
-  if (data::stops_science(mistaken)) return mistaken_diagnosis(all, std::move(mistaken));
-  Limits limits;
-  limits.threads = settings.threads;
-  const auto decision = decide(all, settings, limits, progress);
-  if (!decision) return tl::unexpected(decision.error());
-  Diagnosis d = spelled(all, *decision, limits);
-  d.mistaken.insert(d.mistaken.end(), std::make_move_iterator(mistaken.begin()),
-                    std::make_move_iterator(mistaken.end()));
-  d.quick = !settings.nested;
-  return d;
-}
-
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
@@ -142,10 +126,25 @@ std::string_view name_of(Verdict verdict) {
   return "undecided";
 }
 
+Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& progress,
+                            const DiagnosisSettings& settings, Limits limits) {
+  if (progress) progress(0.0, "smoothing the motions");
+  auto mistaken = data::sanity_of(all);
+  if (data::stops_science(mistaken)) return mistaken_diagnosis(all, std::move(mistaken));
+  limits.threads = settings.threads;
+  const auto decision = decide(all, settings, limits, progress);
+  if (!decision) return tl::unexpected(decision.error());
+  Diagnosis d = spelled(all, *decision, limits);
+  d.mistaken.insert(d.mistaken.end(), std::make_move_iterator(mistaken.begin()),
+                    std::make_move_iterator(mistaken.end()));
+  d.quick = !settings.nested;
+  return d;
+}
+
 Result<Diagnosis> diagnose(const RecordingSet& recordings, const DiagnosisProgress& progress,
                            const DiagnosisSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  auto result = diagnosed(recordings, progress, settings);
+  auto result = diagnosed(recordings, progress, settings, Limits{});
   if (!result) return result;
   result->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress) progress(1.0, "done");

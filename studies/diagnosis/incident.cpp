@@ -19,11 +19,10 @@ constexpr double kBeyondSearch = 18.0;  // nats; one in 10^7 searches of indepen
 constexpr Index kHalfWindow = 25;  // of the parabola about which a pulse stands, as the noise's
 constexpr double kShown = 0.05;    // of a recording: as finely as its place is told
 
-// Not derived, but set on one development seed. With 0.7 of what all recordings have like it,
-// corners of the motion were incidents on six of seven sound benches looked at; the acceleration
-// changes in a row by 1.4 times the usual in a sine, by about 4 in a multisine.
-constexpr double kAlone = 0.9;   // of what all recordings have like it, its own included
+constexpr double kAgain = 0.1;   // of its log likelihood: as much elsewhere, and it comes again
 constexpr double kCorner = 6.0;  // change of the acceleration in a row over the usual one
+constexpr double kAtCorner =
+    3.0;  // of it, at corners: one of them may be missed by more than others
 constexpr Index kCornerRows = 10;
 constexpr std::array kShares = {0.01, 0.025, 0.05, 0.1};  // of a recording: lengths of a stretch
 constexpr std::array kPulses = {0.005, 0.0075, 0.01, 0.015};
@@ -35,7 +34,7 @@ constexpr double kMostOfIt = 0.8;  // of a recording: more is no incident, but t
 /// The best stretch of a recording, and the best that is apart from it.
 struct Stretch {
   double nats = 0.0;
-  Index first = 0;  ///< of the frame
+  Index first = 0;  ///< row of the recording
   Index count = 0;
   double elsewhere = 0.0;
 };
@@ -61,32 +60,74 @@ double power_nats(double mean_square, double rows) {
   return 0.5 * rows * (mean_square - 1.0 - std::log(mean_square));
 }
 
-// Every stretch of a recording of n rows.
-template <class Visit>
-void stretches_of(Index n, const Visit& visit) {
+/// Where the motion of a recording has corners: there its acceleration is not known, nor is what
+/// follows from it.
+class Corners {
+ public:
+  Corners(const Frame& frame, const Segment& s) : sharpness_(ArrayXd::Zero(s.count)) {
+    const ArrayXd a = frame.motor_acceleration.segment(s.first, s.count);
+    const ArrayXd jump = (a.tail(a.size() - 1) - a.head(a.size() - 1)).abs();
+    for (Index r = 0; r < s.count; ++r) {
+      const Index from = std::max<Index>(0, r - kCornerRows);
+      const Index to = std::min(jump.size(), r + kCornerRows);
+      sharpness_[r] = jump.segment(from, to - from).maxCoeff();
+    }
+    const double usual = middle({jump.begin(), jump.end()});
+    count_ = running_sum((sharpness_ > kCorner * usual).cast<double>());
+  }
+
+  bool at(Index row) const { return touched(row, 1); }
+  bool touched(Index first, Index count) const { return count_[first + count] > count_[first]; }
+  /// Largest change of the acceleration in a row.
+  double sharpest(Index first, Index count) const {
+    return count > 0 ? sharpness_.segment(first, count).maxCoeff() : 0.0;
+  }
+  Index rows() const { return sharpness_.size(); }
+
+ private:
+  ArrayXd sharpness_;  ///< by row, within kCornerRows of it
+  ArrayXd count_;      ///< running, of rows at a corner
+};
+
+/// The best of some stretches of a recording, all at corners of its motion or none.
+class Best {
+ public:
+  Best(const Corners& corners, bool at_corners) : corners_(corners), at_corners_(at_corners) {}
+
+  void take(double nats, Index first, Index count) {
+    if (corners_.touched(first, count) == at_corners_) tried_.push_back({nats, first, count, 0.0});
+  }
+
+  Stretch found() const {
+    Stretch best;
+    for (const Stretch& s : tried_) {
+      if (s.nats > best.nats) best = s;
+    }
+    const auto apart = static_cast<Index>(kApart * static_cast<double>(corners_.rows()));
+    for (const Stretch& s : tried_) {
+      const bool far =
+          s.first >= best.first + best.count + apart || s.first + s.count + apart <= best.first;
+      if (far) best.elsewhere = std::max(best.elsewhere, s.nats);
+    }
+    return best;
+  }
+
+ private:
+  const Corners& corners_;
+  bool at_corners_;
+  std::vector<Stretch> tried_;
+};
+
+void by_power(const ArrayXd& z, Best& best) {
+  const ArrayXd sum = running_sum(z.max(-kOutlying).min(kOutlying).square());
+  const Index n = z.size();
   for (const double share : kShares) {
     const Index width = std::max(kFewest, static_cast<Index>(share * static_cast<double>(n)));
-    for (Index i = 0; i + width <= n; i += std::max<Index>(1, width / 4)) visit(i, width);
-  }
-}
-
-Stretch by_power(const ArrayXd& z, Index at) {
-  const ArrayXd sum = running_sum(z.max(-kOutlying).min(kOutlying).square());
-  const auto nats = [&](Index i, Index width) {
     const double rows = static_cast<double>(width);
-    return power_nats((sum[i + width] - sum[i]) / rows, rows);
-  };
-  Stretch best;
-  stretches_of(z.size(), [&](Index i, Index width) {
-    if (nats(i, width) > best.nats) best = {nats(i, width), i, width, 0.0};
-  });
-  const auto apart = static_cast<Index>(kApart * static_cast<double>(z.size()));
-  stretches_of(z.size(), [&](Index i, Index width) {
-    const bool far = i >= best.first + best.count + apart || i + width + apart <= best.first;
-    if (far) best.elsewhere = std::max(best.elsewhere, nats(i, width));
-  });
-  best.first += at;
-  return best;
+    for (Index i = 0; i + width <= n; i += std::max<Index>(1, width / 4)) {
+      best.take(power_nats((sum[i + width] - sum[i]) / rows, rows), i, width);
+    }
+  }
 }
 
 // Long-run variance over variance, at least 1 (Newey and West 1987): by how much means of rows that
@@ -102,36 +143,38 @@ double long_run(const ArrayXd& z, Index lags) {
   return variance > 0.0 ? std::max(1.0, sum / variance) : 1.0;
 }
 
-// A mean from one row to the end that is another than before, held against how means of this
-// residual wander: what a model misses is no step.
-Stretch by_step(const ArrayXd& z, Index at) {
+// A mean from one row to the end that is another than before, held against how means of what is
+// left beside the two wander: what a model misses is no step.
+Stretch by_step(const ArrayXd& z) {
   const Index n = z.size();
-  const ArrayXd sum = running_sum(z.max(-kOutlying).min(kOutlying));
+  const ArrayXd sum = running_sum(z);
   const auto total = static_cast<double>(n);
   Stretch best;
   for (Index i = n / 10; i + n / 10 < n; ++i) {
     const auto before = static_cast<double>(i);
     const double contrast = sum[i] / before - (sum[n] - sum[i]) / (total - before);
     const double nats = 0.5 * contrast * contrast * before * (total - before) / total;
-    if (nats > best.nats) best = {nats, at + i, n - i, 0.0};
+    if (nats > best.nats) best = {nats, i, n - i, 0.0};
   }
   if (best.count == 0) return best;
-  ArrayXd about = z.max(-kOutlying).min(kOutlying);
+  ArrayXd about = z;
   auto later = about.tail(best.count);
   auto earlier = about.head(n - best.count);
   later -= later.mean();
   earlier -= earlier.mean();
-  best.nats /= long_run(about, n / 10);
+  const double usual = usual_size(about);
+  if (!(usual > 0.0)) return {};
+  about = (about / usual).max(-kOutlying).min(kOutlying);
+  best.nats /= usual * usual * long_run(about, n / 10);
   return best;
 }
 
 // A few rows beside the rest: their mean over that of as many rows anywhere in the recording.
-Stretch by_pulse(const ArrayXd& residual, Index at) {
+void by_pulse(const ArrayXd& residual, Best& best) {
   const ArrayXd about = about_parabola(residual, parabola_weights(kHalfWindow));
   const double usual = usual_size(about);
-  if (!(usual > 0.0)) return {};
+  if (!(usual > 0.0)) return;
   const ArrayXd sum = running_sum((about / usual).max(-kOutlying).min(kOutlying));
-  std::vector<std::pair<double, Stretch>> tried;
   for (const double share : kPulses) {
     const Index width =
         std::max(kShortest, static_cast<Index>(share * static_cast<double>(residual.size())));
@@ -141,57 +184,145 @@ Stretch by_pulse(const ArrayXd& residual, Index at) {
     const double spread = std::max(usual_size(means), std::sqrt(static_cast<double>(width)));
     for (Index i = 0; i < count; ++i) {
       const double z = (sum[i + width] - sum[i]) / spread;
-      tried.push_back({0.5 * z * z, {0.0, i + kHalfWindow, width, 0.0}});
+      best.take(0.5 * z * z, i + kHalfWindow, width);
     }
   }
-  Stretch best;
-  for (const auto& [nats, s] : tried) {
-    if (nats > best.nats) best = s, best.nats = nats;
-  }
-  const auto apart = static_cast<Index>(kApart * static_cast<double>(residual.size()));
-  for (const auto& [nats, s] : tried) {
-    const bool far =
-        s.first >= best.first + best.count + apart || s.first + s.count + apart <= best.first;
-    if (far) best.elsewhere = std::max(best.elsewhere, nats);
-  }
-  best.first += at;
-  return best;
 }
 
-// Where the motion has a corner its acceleration is not known, nor is what follows from it.
-bool at_a_corner(const Frame& frame, const Segment& segment, const Stretch& s) {
-  const ArrayXd a = frame.motor_acceleration.segment(segment.first, segment.count);
-  const ArrayXd jump = (a.tail(a.size() - 1) - a.head(a.size() - 1)).abs();
-  const double usual = middle({jump.begin(), jump.end()});
-  const Index from = std::max<Index>(0, s.first - segment.first - kCornerRows);
-  const Index to = std::min(jump.size(), s.first - segment.first + s.count + kCornerRows);
-  return jump.segment(from, to - from).maxCoeff() > kCorner * usual;
+/// The best stretch of every recording by one statistic, rows counted within the recording.
+struct Scan {
+  std::vector<Stretch> best;
+  bool at_corners = false;
+};
+
+/// Stretches of an equation's residual by power, step and pulse, apart from corners and at them.
+class Scans {
+ public:
+  Scans(const Frame& frame, const std::vector<Corners>& corners, const Findings& findings,
+        Equation equation)
+      : frame_(frame),
+        corners_(corners),
+        residual_(findings.fit.residual[index_of(equation)] * frame.usable),
+        weighted_(residual_ * findings.weight[index_of(equation)]),
+        at_corners_(usual_size(weighted_ * corner_rows())) {}
+
+  std::vector<Scan> all() const {
+    std::vector<Scan> list = {{each([this](std::size_t i) { return by_step(weighted(i)); })}};
+    for (const bool at_corners : {false, true}) {
+      const auto best_of = [&](const auto& by) {
+        return each([&](std::size_t i) {
+          Best best(corners_[i], at_corners);
+          by(i, best);
+          return best.found();
+        });
+      };
+      const double least = at_corners ? at_corners_ : 0.0;
+      const auto power = [&](std::size_t i, Best& best) { by_power(normal(i, least), best); };
+      const auto pulse = [&](std::size_t i, Best& best) { by_pulse(raw(i), best); };
+      list.push_back({best_of(power), at_corners});
+      list.push_back({best_of(pulse), at_corners});
+    }
+    return list;
+  }
+
+ private:
+  template <class By>
+  std::vector<Stretch> each(const By& by) const {
+    std::vector<Stretch> list;
+    for (std::size_t i = 0; i < frame_.segments.size(); ++i) list.push_back(by(i));
+    return list;
+  }
+
+  ArrayXd of_recording(const ArrayXd& x, std::size_t i) const {
+    return x.segment(frame_.segments[i].first, frame_.segments[i].count);
+  }
+  ArrayXd raw(std::size_t i) const { return of_recording(residual_, i); }
+  ArrayXd weighted(std::size_t i) const { return of_recording(weighted_, i); }
+  // Over the recording's usual size, or a larger one.
+  ArrayXd normal(std::size_t i, double least) const {
+    const ArrayXd z = weighted(i);
+    const double usual = std::max(usual_size(z), least);
+    return usual > 0.0 ? ArrayXd(z / usual) : z;
+  }
+  ArrayXd corner_rows() const {
+    ArrayXd rows = ArrayXd::Zero(frame_.rows());
+    for (std::size_t i = 0; i < frame_.segments.size(); ++i) {
+      const Segment& s = frame_.segments[i];
+      for (Index r = 0; r < s.count; ++r) rows[s.first + r] = corners_[i].at(r) ? 1.0 : 0.0;
+    }
+    return rows;
+  }
+
+  const Frame& frame_;
+  const std::vector<Corners>& corners_;
+  ArrayXd residual_;
+  ArrayXd weighted_;
+  double at_corners_;  ///< usual size at corners, over the noise
+};
+
+// Whether no corner elsewhere is as sharp: what stands there may be the corner's own.
+bool is_at_the_sharpest(const std::vector<Corners>& corners, std::size_t segment,
+                        const Stretch& s) {
+  const double own = corners[segment].sharpest(s.first, s.count);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Index n = corners[i].rows();
+    const auto apart = static_cast<Index>(kApart * static_cast<double>(n));
+    const Index before = i == segment ? std::max<Index>(0, s.first - apart) : n;
+    const Index after = i == segment ? std::min(n, s.first + s.count + apart) : n;
+    if (corners[i].sharpest(0, before) >= own) return false;
+    if (corners[i].sharpest(after, n - after) >= own) return false;
+  }
+  return true;
 }
 
-void keep_alone(const Frame& frame, const ArrayXd& residual, Equation equation,
-                const std::vector<Stretch>& stretches, const Limits& limits, double& most,
-                std::optional<Incident>& found) {
-  // A search over so many stretches gains as much on noise.
-  const double chance = std::log(static_cast<double>(frame.rows()));
-  double whole = 0.0;
-  for (const Stretch& s : stretches) {
-    whole += std::max(s.nats - chance, 0.0) + std::max(s.elsewhere - chance, 0.0);
+// The largest of what there is beside a recording's best stretch, in all recordings.
+double largest_beside(const Scan& scan, std::size_t segment) {
+  double most = scan.best[segment].elsewhere;
+  for (std::size_t i = 0; i < scan.best.size(); ++i) {
+    if (i != segment) most = std::max(most, scan.best[i].nats);
   }
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    const Stretch& s = stretches[i];
-    const Segment& segment = frame.segments[i];
-    const double beyond = s.nats - chance;
-    if (beyond < std::max(kBeyondSearch, kAlone * whole) || s.nats <= most) continue;
-    if (static_cast<double>(s.count) > kMostOfIt * static_cast<double>(segment.count)) continue;
-    const bool to_the_end = s.first + s.count == segment.first + segment.count;
-    if (!to_the_end && at_a_corner(frame, segment, s)) continue;
-    const auto part = residual.segment(s.first, s.count);
-    const double size = std::sqrt(part.square().mean()) / frame.largest_torque(equation);
-    if (size < limits.beyond_size) continue;
-    most = s.nats;
-    found = Incident{equation, i, s.first, s.count, size};
-  }
+  return most;
 }
+
+/// Keeps the incident of the greatest log likelihood.
+class Sought {
+ public:
+  Sought(const Frame& frame, const std::vector<Corners>& corners, const Limits& limits)
+      : frame_(frame),
+        corners_(corners),
+        limits_(limits),
+        chance_(std::log(static_cast<double>(frame.rows()))) {}
+
+  void take(const Scan& scan, Equation equation, const ArrayXd& residual) {
+    for (std::size_t i = 0; i < scan.best.size(); ++i) {
+      const Stretch& s = scan.best[i];
+      const Segment& segment = frame_.segments[i];
+      // A search over so many stretches gains as much on noise.
+      const double beyond = s.nats - chance_;
+      const double least = kBeyondSearch * (scan.at_corners ? kAtCorner : 1.0);
+      if (beyond < least || s.nats <= most_) continue;
+      if (largest_beside(scan, i) - chance_ > kAgain * beyond) continue;
+      if (static_cast<double>(s.count) > kMostOfIt * static_cast<double>(segment.count)) continue;
+      if (scan.at_corners && is_at_the_sharpest(corners_, i, s)) continue;
+      const auto part = residual.segment(segment.first + s.first, s.count);
+      const double size = std::sqrt(part.square().mean()) / frame_.largest_torque(equation);
+      if (size < limits_.beyond_size) continue;
+      most_ = s.nats;
+      found_ = Incident{equation, i, segment.first + s.first, s.count, size};
+    }
+  }
+
+  /// Null where there is none.
+  const Incident* found() const { return most_ > 0.0 ? &found_ : nullptr; }
+
+ private:
+  const Frame& frame_;
+  const std::vector<Corners>& corners_;
+  const Limits& limits_;
+  double chance_;
+  double most_ = 0.0;
+  Incident found_{};
+};
 
 // No shorter than what is shown of it, about its middle, within its recording.
 Incident shown(const Frame& frame, Incident incident) {
@@ -208,30 +339,16 @@ Incident shown(const Frame& frame, Incident incident) {
 
 std::optional<Incident> find_incident(const Frame& frame, const Findings& findings,
                                       const Limits& limits) {
-  std::optional<Incident> found;
-  double most = 0.0;
+  std::vector<Corners> corners;
+  for (const Segment& s : frame.segments) corners.emplace_back(frame, s);
+  Sought sought(frame, corners, limits);
   for (const Equation equation : frame.equations) {
-    const std::size_t e = index_of(equation);
-    const ArrayXd weighted = findings.fit.residual[e] * findings.weight[e];
-    std::vector<Stretch> powers;
-    std::vector<Stretch> steps;
-    std::vector<Stretch> pulses;
-    for (const Segment& s : frame.segments) {
-      ArrayXd z = weighted.segment(s.first, s.count);
-      const double usual = usual_size(z);
-      if (usual > 0.0) z /= usual;
-      powers.push_back(by_power(z, s.first));
-      steps.push_back(by_step(z, s.first));
-      const ArrayXd usable = frame.usable.segment(s.first, s.count);
-      const ArrayXd raw = findings.fit.residual[e].segment(s.first, s.count) * usable;
-      pulses.push_back(by_pulse(raw, s.first));
-    }
-    for (const auto& stretches : {powers, steps, pulses}) {
-      keep_alone(frame, findings.fit.residual[e], equation, stretches, limits, most, found);
+    for (const Scan& scan : Scans(frame, corners, findings, equation).all()) {
+      sought.take(scan, equation, findings.fit.residual[index_of(equation)]);
     }
   }
-  if (found) found = shown(frame, *found);
-  return found;
+  if (sought.found() == nullptr) return std::nullopt;
+  return shown(frame, *sought.found());
 }
 
 Frame without_incident(Frame frame, const Incident& incident) {

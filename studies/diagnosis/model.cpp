@@ -15,7 +15,7 @@ using Eigen::Index;
 using estimators::SeparableBlock;
 using estimators::ShapeBound;
 
-constexpr double kMostZeroError = 0.1;  // of the torsion, over its range
+constexpr double kMostZeroError = 0.3;  // of the torsion, over its range
 constexpr double kFree = -std::numeric_limits<double>::infinity();
 
 // Searched in the logarithm where a shape is.

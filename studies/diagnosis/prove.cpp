@@ -43,9 +43,9 @@ Findings on_training(Findings findings, const ArrayXd& out) {
 /// elsewhere.
 struct HeldOut {
   PerEquation base, final, placebo;
-  std::vector<ArrayXd> without;  ///< of the final model less each cause, in that cause's equation
-  ArrayXd before, after;         ///< predictions of the equation to prove, all rows
-  double train_before = 0.0;     ///< sums of squares of the equation to prove, all folds
+  std::vector<PerEquation> without;  ///< of the final model less each cause
+  ArrayXd before, after;             ///< predictions of the equation to prove, all rows
+  double train_before = 0.0;         ///< sums of squares of the equation to prove, all folds
   double train_after = 0.0;
   double train_rows = 0.0;
 };
@@ -63,7 +63,7 @@ HeldOut nothing_yet(const Frame& frame, const Selection& s) {
   return {each,
           each,
           each,
-          {s.accepted.size(), zero},
+          {s.accepted.size(), each},
           s.baseline.fit.prediction[e],
           s.final.fit.prediction[e]};
 }
@@ -138,22 +138,34 @@ void take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, const
   take(pool.final, final.residual, held);
   if (fold.placebo) take(pool.placebo, fold.placebo->residual, held);
   for (std::size_t i = 0; i < fold.without.size(); ++i) {
-    const std::size_t at = index_of(first_equation(frame, *s.accepted[i].trial.cause.form));
-    pool.without[i] += fold.without[i].residual[at] * held;
+    take(pool.without[i], fold.without[i].residual, held);
   }
   pool.train_before += (base.residual[e].square() * train).sum();
   pool.train_after += (final.residual[e].square() * train).sum();
   pool.train_rows += train.sum();
 }
 
-void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
-                  Proof& proof) {
+// Root of the chi square of some equations: what a cause does there counts by the noise of each.
+double misfit(const Frame& frame, const Findings& findings, const CauseForm& form,
+              const PerEquation& held_out) {
+  double chi_square = 0.0;
+  for (Equation equation : form.at) {
+    if (!frame.has(equation)) continue;
+    const std::size_t e = index_of(equation);
+    chi_square += (held_out[e] * findings.weight[e]).square().sum() / findings.noise[e].colour;
+  }
+  return std::sqrt(chi_square);
+}
+
+void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, Proof& proof) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    const std::size_t e = index_of(first_equation(frame, *s.accepted[i].trial.cause.form));
-    proof.cause_ratio.push_back(rms_on(pool.final[e], held) / rms_on(pool.without[i], held));
-    const double instead = rms_on(pool.placebo[e], held);
-    proof.placebo_ratio.push_back(instead > 0.0 ? instead / rms_on(pool.base[e], held)
-                                                : kNotComputed);
+    const CauseForm& form = *s.accepted[i].trial.cause.form;
+    const auto of = [&](const PerEquation& residual) {
+      return misfit(frame, s.final, form, residual);
+    };
+    proof.cause_ratio.push_back(of(pool.final) / of(pool.without[i]));
+    const double instead = of(pool.placebo);
+    proof.placebo_ratio.push_back(instead > 0.0 ? instead / of(pool.base) : kNotComputed);
   }
 }
 
@@ -224,7 +236,7 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
   resample_ratio(frame, held, pool.base[e], pool.final[e], h);
-  prove_causes(frame, s, pool, held, proof);
+  prove_causes(frame, s, pool, proof);
   for (FoldFits& fold : *fits) proof.by_fold.push_back(std::move(fold.final.fit));
   if (e == index_of(Equation::motor)) {
     for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,

@@ -16,8 +16,11 @@ struct Proof {
   HoldoutProof holdout;
   double rmse_train_before = kNotComputed;
   double rmse_train_after = kNotComputed;
-  std::vector<double> cause_ratio;    ///< final model over the final model without that cause
-  std::vector<double> placebo_ratio;  ///< with an absent effect instead, over the baseline
+  /// Error of the final model over that without a cause, by cause, and of the baseline with an
+  /// absent effect over the baseline: roots of the chi square of the equations that the cause acts
+  /// on.
+  std::vector<double> cause_ratio;
+  std::vector<double> placebo_ratio;
   /// Measured torque of the equation to prove as the baseline and the final model predict it, all
   /// rows: where held out by the fits that did not see them, else by those to all recordings.
   Eigen::ArrayXd before;

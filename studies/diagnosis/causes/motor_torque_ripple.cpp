@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+
 #include "diagnosis/cause_columns.hpp"
 
 namespace flexspline::studies {
@@ -17,6 +20,17 @@ std::vector<Shape> turns(const Frame&) {
            .meaning = "of a turn of the motor"}};
 }
 
+std::vector<Shape> turns_and_zero(const Frame& f) {
+  auto shapes = turns(f);
+  shapes.push_back({.name = "zeroed_at",
+                    .unit = "rad",
+                    .lower = -std::numbers::pi,
+                    .upper = std::numbers::pi,
+                    .logarithmic = false,
+                    .meaning = "phase of the ripple at which the channel was zeroed"});
+  return shapes;
+}
+
 bool ripples(double order) { return order >= 1.0 && order <= kHighestOrder; }
 
 Columns ripple(Equation, const Frame& f, const Reference&, Values shape) {
@@ -27,6 +41,14 @@ Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values 
   return sine_pair(f.motor_angle, shape[0], f.smooth_motor_torque);
 }
 
+// A channel that ripples was zeroed at some angle of the motor: there it shows nothing.
+Columns ripple_of_channel(Equation, const Frame& f, const Reference&, Values shape) {
+  Columns columns = sine_pair(f.motor_angle, shape[0]);
+  columns[0] -= std::sin(shape[1]);
+  columns[1] -= std::cos(shape[1]);
+  return columns;
+}
+
 Counterpart cogging(const FittedCause& c) {
   return {.effects = {{"motor_torque_ripple",
                        {{"order", c.shape[0]},
@@ -34,6 +56,14 @@ Counterpart cogging(const FittedCause& c) {
                         {"cogging_cosine", c.coefficients[1]},
                         {"ripple_sine", 0.0},
                         {"ripple_cosine", 0.0}}}}};
+}
+
+Counterpart with_its_zero(const FittedCause& c) {
+  Counterpart counterpart = cogging(c);
+  const double zero =
+      c.coefficients[0] * std::sin(c.shape[1]) + c.coefficients[1] * std::cos(c.shape[1]);
+  counterpart.effects.push_back({"motor_torque_offset", {{"offset", -zero}}});
+  return counterpart;
 }
 
 Counterpart under_current(const FittedCause& c) {
@@ -68,6 +98,16 @@ CauseRow describe_motor_torque_ripple() {
                      .where = geared,
                      .ripples = ripples,
                      .counterpart = cogging},
+                    {.equation = "tau_m,recorded = tau_m + a (sin k theta_m - sin p) + b (cos k "
+                                 "theta_m - cos p)",
+                     .rigs = kTurning,
+                     .at = {Equation::motor},
+                     .shapes = turns_and_zero,
+                     .terms = cogging_terms,
+                     .columns = ripple_of_channel,
+                     .extends = true,
+                     .where = geared,
+                     .counterpart = with_its_zero},
                     {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m)",
                      .rigs = kTurning,
                      .at = {Equation::motor},

@@ -1,0 +1,180 @@
+// What each rule of the diagnosis buys: the cases of a trial, diagnosed with all rules and without
+// each (docs/decisions/0024).
+//   flexspline_rule_ablation TRIAL.toml CASES SEED [RULE...]
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "diagnosis/diagnosed.hpp"
+#include "flexspline/core/in_parallel.hpp"
+#include "flexspline/studies/trial.hpp"
+
+namespace flexspline::bench {
+namespace {
+
+using studies::CaseKind;
+using studies::CaseScore;
+using studies::ConcealedCase;
+using studies::Limits;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+struct Rule {
+  std::string name;
+  std::function<void(Limits&)> without;
+};
+
+std::vector<Rule> rules() {
+  return {
+      {"all rules", [](Limits&) {}},
+      {"named_gain", [](Limits& l) { l.named_gain = l.net_gain; }},
+      {"taken_up", [](Limits& l) { l.taken_up = kNever; }},
+      {"alike", [](Limits& l) { l.alike = 1.0; }},
+      {"remainder", [](Limits& l) { l.remainder = kNever; }},
+      {"doubtless", [](Limits& l) { l.doubtless = kNever; }},
+      {"shadow", [](Limits& l) { l.shadow = l.twin_shadow = 0.0; }},
+      {"twin_shadow", [](Limits& l) { l.twin_shadow = l.shadow; }},
+      {"beyond_form", [](Limits& l) { l.beyond_form = l.apart = kNever; }},
+      {"apart", [](Limits& l) { l.apart = kNever; }},
+      {"main", [](Limits& l) { l.main = kNever; }},
+      {"explained", [](Limits& l) { l.explained = l.half = 0.0; }},
+      {"half", [](Limits& l) { l.half = kNever; }},
+      {"misfit", [](Limits& l) { l.misfit = 0.0; }},
+      {"unordered", [](Limits& l) { l.unordered = kNever; }},
+      {"unproved", [](Limits& l) { l.unproved = kNever; }},
+      {"held_out_share", [](Limits& l) { l.held_out_share = 0.0; }},
+      {"causes", [](Limits& l) { l.causes = 99; }},
+      {"beyond_noise", [](Limits& l) { l.beyond_noise = kNever; }},
+      {"least_told", [](Limits& l) { l.least_told = -kNever; }},
+      {"physics", [](Limits& l) { l.physics = kNever; }},
+      {"rescaled", [](Limits& l) { l.rescaled = kNever; }},
+      {"ripple_share", [](Limits& l) { l.ripple_share = kNever; }},
+      {"incidents", [](Limits& l) { l.incidents = 0; }},
+  };
+}
+
+bool is_right(const CaseScore& s) {
+  switch (s.kind) {
+    case CaseKind::null:
+      return s.null_right;
+    case CaseKind::single:
+      return s.exact;
+    case CaseKind::pair:
+      return s.pair_both && s.false_names == 0;
+    case CaseKind::contained:
+      return s.contained_right;
+    case CaseKind::incident:
+      return s.incident_found && s.false_names == 0;
+    default:
+      return s.unknown_right;
+  }
+}
+
+struct Answer {
+  CaseScore score;
+  std::string says;
+};
+
+std::string in_words(const Result<studies::Diagnosis>& d) {
+  if (!d) return "failed";
+  std::string text(studies::name_of(d->verdict));
+  for (const auto& cause : d->causes) {
+    text += fmt::format(" {}({:.2f} p{:.2f} r{:.2f})", cause.effect, cause.size_fraction,
+                        cause.probability, cause.evidence.holdout_rmse_ratio);
+  }
+  return text;
+}
+
+std::vector<Answer> answers(const std::vector<ConcealedCase>& cases, const Limits& limits) {
+  std::vector<Answer> list(cases.size());
+  in_parallel(cases.size(), 0, [&](std::size_t i) {
+    const auto d =
+        studies::diagnosed(cases[i].recordings, {}, {.threads = 1, .nested = false}, limits);
+    list[i] = {studies::score_case(cases[i].answer, d ? &*d : nullptr), in_words(d)};
+  });
+  return list;
+}
+
+std::string hidden_in(const ConcealedCase& one) {
+  std::string text = fmt::format("{} {}:", one.answer.generator, name_of(one.answer.rig));
+  for (const auto& effect : one.answer.effects) {
+    text += fmt::format(" {} {:.3f}", effect.id, effect.size_fraction);
+  }
+  for (const auto& other : one.answer.disturbances) text += " ~" + other.id;
+  return text;
+}
+
+std::vector<ConcealedCase> cases_of(const studies::TrialConfig& trial) {
+  std::vector<ConcealedCase> cases;
+  for (const auto& one : studies::plan_trial(trial)) {
+    auto concealed = studies::conceal(one.plan);
+    if (concealed) cases.push_back(std::move(*concealed));
+  }
+  return cases;
+}
+
+void compare(const std::string& rule, const std::vector<ConcealedCase>& cases,
+             const std::vector<Answer>& base, const std::vector<Answer>& other) {
+  int right = 0, better = 0, worse = 0, names = 0, false_names = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const bool was = is_right(base[i].score);
+    const bool is = is_right(other[i].score);
+    right += is, better += is && !was, worse += was && !is;
+    names += other[i].score.named, false_names += other[i].score.false_names;
+    if (&base == &other || other[i].says == base[i].says) continue;
+    fmt::print(stderr, "{} {} {} | {} | {} -> {}\n", rule, i,
+               is == was ? "="
+               : is      ? "better"
+                         : "worse",
+               hidden_in(cases[i]), base[i].says, other[i].says);
+  }
+  fmt::print("| {} | {} | {} | {} | {} of {} |\n", rule, right, better, worse, false_names, names);
+  std::fflush(stdout);
+}
+
+int run(int argc, char** argv) {
+  auto trial = studies::load_trial(argv[1]);
+  if (!trial) {
+    fmt::print(stderr, "{}\n", trial.error().message());
+    return 1;
+  }
+  trial->cases = std::atoi(argv[2]);
+  trial->seed = std::strtoull(argv[3], nullptr, 10);
+  const auto cases = cases_of(*trial);
+  fmt::print(
+      "{} cases\n| without | right | better | worse | false names |\n|---|---|---|---|---|\n",
+      cases.size());
+  std::vector<Answer> base;
+  for (const Rule& rule : rules()) {
+    bool asked = argc == 4 || base.empty();
+    for (int i = 4; i < argc; ++i) asked = asked || rule.name == argv[i];
+    if (!asked) continue;
+    Limits limits;
+    rule.without(limits);
+    if (base.empty()) {
+      base = answers(cases, limits);
+      compare(rule.name, cases, base, base);
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        fmt::print(stderr, "base {} {} | {} | {}\n", i, is_right(base[i].score) ? "right" : "WRONG",
+                   hidden_in(cases[i]), base[i].says);
+      }
+      continue;
+    }
+    compare(rule.name, cases, base, answers(cases, limits));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace flexspline::bench
+
+int main(int argc, char** argv) {
+  if (argc >= 4) return flexspline::bench::run(argc, argv);
+  fmt::print(stderr, "usage: {} TRIAL.toml CASES SEED [RULE...]\n", argv[0]);
+  return 2;
+}
