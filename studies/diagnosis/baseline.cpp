@@ -122,7 +122,6 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
     c.columns.col(f + static_cast<Index>(k)) = (frame.torsion_rate / widths[k]).tanh();
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
-  if (frame.torque_lag > 0.0) LowPass(frame, frame.torque_lag).apply(c.columns);
   return c;
 }
 
@@ -142,6 +141,15 @@ BaselineColumns motor_columns(const Frame& frame) {
     c.columns.col(2 + n) = frame.load_acceleration;
   }
   return c;
+}
+
+BaselineColumns before_a_filter(const Frame& frame, Equation equation,
+                                std::span<const double> shape) {
+  if (equation == Equation::torsion) {
+    return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
+  }
+  if (equation == Equation::load) return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1, {}};
+  return motor_columns(frame);
 }
 
 }  // namespace
@@ -203,11 +211,9 @@ Frame motion_at(const Frame& frame, const std::vector<Index>& rows) {
 
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape) {
-  if (equation == Equation::torsion) {
-    return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
-  }
-  if (equation == Equation::load) return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1, {}};
-  return motor_columns(frame);
+  BaselineColumns c = before_a_filter(frame, equation, shape);
+  if (frame.torque_lag > 0.0) LowPass(frame, frame.torque_lag).apply(c.columns);
+  return c;
 }
 
 }  // namespace flexspline::studies

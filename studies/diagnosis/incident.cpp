@@ -54,6 +54,8 @@ double usual_size(const ArrayXd& z) {
   return sizes.empty() ? 0.0 : middle(std::move(sizes)) / kMedianSize;
 }
 
+double usual_value(const ArrayXd& z) { return middle({z.begin(), z.end()}); }
+
 // Log likelihood of a variance of its own, where it is larger than the recording's.
 double power_nats(double mean_square, double rows) {
   if (!(mean_square > 1.0)) return 0.0;
@@ -160,12 +162,15 @@ Stretch by_step(const ArrayXd& z) {
   ArrayXd about = z;
   auto later = about.tail(best.count);
   auto earlier = about.head(n - best.count);
-  later -= later.mean();
-  earlier -= earlier.mean();
+  const double late = usual_value(later);
+  const double early = usual_value(earlier);
+  later -= late, earlier -= early;
   const double usual = usual_size(about);
   if (!(usual > 0.0)) return {};
   about = (about / usual).max(-kOutlying).min(kOutlying);
-  best.nats /= usual * usual * long_run(about, n / 10);
+  const double contrast = (late - early) / usual + later.mean() - earlier.mean();
+  const auto after = static_cast<double>(best.count);
+  best.nats = 0.5 * contrast * contrast * after * (total - after) / total / long_run(about, n / 10);
   return best;
 }
 

@@ -9,6 +9,9 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
+constexpr std::string_view kEquation = "T tau' + tau = tau(x + T x')";
+constexpr std::string_view kOfTheBench = "a filter of the bench is no part of the gear";
+
 std::vector<Shape> time_constant(const Frame& f) {
   return {{.name = "time_constant",
            .unit = "s",
@@ -20,16 +23,20 @@ std::vector<Shape> time_constant(const Frame& f) {
 
 std::vector<double> short_one(const Frame& f) { return {0.1 / f.fastest()}; }
 
-// The motion before its filter, x + T x', and the torque that it asks for, behind the same.
+// A motion before its filter, x + T x'.
+void undo(const Frame& f, double T, ArrayXd& angle, ArrayXd& rate, ArrayXd& acceleration) {
+  angle += T * rate;
+  rate += T * acceleration;
+  acceleration = later(f, acceleration, T);
+}
+
+// The motion before its filter and the torque that it asks for, behind the same.
 void before_the_filter(Frame& f, Values shape) {
-  const double T = shape[0];
-  const ArrayXd later_acceleration = later(f, f.torsion_acceleration, T);
-  for (ArrayXd* angle : {&f.torsion, &f.motor_angle, &f.load_angle}) {
-    *angle += T * f.torsion_rate;
-  }
-  for (ArrayXd* rate : {&f.torsion_rate, &f.motor_speed}) *rate += T * f.torsion_acceleration;
-  f.torsion_acceleration = later_acceleration;
-  f.torque_lag = T;
+  undo(f, shape[0], f.motor_angle, f.motor_speed, f.motor_acceleration);
+  undo(f, shape[0], f.load_angle, f.load_speed, f.load_acceleration);
+  undo(f, shape[0], f.torsion, f.torsion_rate, f.torsion_acceleration);
+  if (f.rig == Rig::servo) f.hang_pendulum();
+  f.torque_lag = shape[0];
 }
 
 std::string in_words(const DriveModel& model, std::size_t cause) {
@@ -44,14 +51,21 @@ std::string in_words(const DriveModel& model, std::size_t cause) {
 CauseRow describe_common_filter() {
   return {.id = "common_filter",
           .coordinate = "lag",
-          .forms = {{.equation = "T tau' + tau = tau(x + T x')",
+          .forms = {{.equation = kEquation,
                      .rigs = {Rig::specimen},
                      .at = {Equation::torsion},
                      .shapes = time_constant,
                      .transform = before_the_filter,
                      .start = short_one,
                      .where = travels,
-                     .no_counterpart = "a filter of the bench is no part of the gear"}},
+                     .no_counterpart = kOfTheBench},
+                    {.equation = kEquation,
+                     .rigs = {Rig::servo},
+                     .at = {Equation::motor},
+                     .shapes = time_constant,
+                     .transform = before_the_filter,
+                     .start = short_one,
+                     .no_counterpart = kOfTheBench}},
           .part = BaselinePart{.says = in_words}};
 }
 
