@@ -21,8 +21,9 @@ constexpr double kShown = 0.05;    // of a recording: as finely as its place is 
 
 constexpr double kAgain = 0.1;   // of its log likelihood: as much elsewhere, and it comes again
 constexpr double kCorner = 6.0;  // change of the acceleration in a row over the usual one
-constexpr double kAtCorner =
-    3.0;  // of it, at corners: one of them may be missed by more than others
+// Times that where a model's own misfit looks alike: a step as what it misses is slow, and at
+// corners as one may be missed by more than another.
+constexpr double kUnsure = 3.0;
 constexpr Index kCornerRows = 10;
 constexpr std::array kShares = {0.01, 0.025, 0.05, 0.1};  // of a recording: lengths of a stretch
 constexpr std::array kPulses = {0.005, 0.0075, 0.01, 0.015};
@@ -194,10 +195,14 @@ void by_pulse(const ArrayXd& residual, Best& best) {
   }
 }
 
-/// The best stretch of every recording by one statistic, rows counted within the recording.
+/// The best stretch of every recording by one statistic.
 struct Scan {
+  enum class Of { steps, plain, corners };
   std::vector<Stretch> best;
-  bool at_corners = false;
+  Of of = Of::plain;
+
+  bool at_corners() const { return of == Of::corners; }
+  bool unsure() const { return of != Of::plain; }
 };
 
 /// Stretches of an equation's residual by power, step and pulse, apart from corners and at them.
@@ -212,7 +217,8 @@ class Scans {
         at_corners_(usual_size(weighted_ * corner_rows())) {}
 
   std::vector<Scan> all() const {
-    std::vector<Scan> list = {{each([this](std::size_t i) { return by_step(weighted(i)); })}};
+    std::vector<Scan> list = {
+        {each([this](std::size_t i) { return by_step(weighted(i)); }), Scan::Of::steps}};
     for (const bool at_corners : {false, true}) {
       const auto best_of = [&](const auto& by) {
         return each([&](std::size_t i) {
@@ -224,8 +230,9 @@ class Scans {
       const double least = at_corners ? at_corners_ : 0.0;
       const auto power = [&](std::size_t i, Best& best) { by_power(normal(i, least), best); };
       const auto pulse = [&](std::size_t i, Best& best) { by_pulse(raw(i), best); };
-      list.push_back({best_of(power), at_corners});
-      list.push_back({best_of(pulse), at_corners});
+      const auto of = at_corners ? Scan::Of::corners : Scan::Of::plain;
+      list.push_back({best_of(power), of});
+      list.push_back({best_of(pulse), of});
     }
     return list;
   }
@@ -304,11 +311,11 @@ class Sought {
       const Segment& segment = frame_.segments[i];
       // A search over so many stretches gains as much on noise.
       const double beyond = s.nats - chance_;
-      const double least = kBeyondSearch * (scan.at_corners ? kAtCorner : 1.0);
+      const double least = kBeyondSearch * (scan.unsure() ? kUnsure : 1.0);
       if (beyond < least || s.nats <= most_) continue;
       if (largest_beside(scan, i) - chance_ > kAgain * beyond) continue;
       if (static_cast<double>(s.count) > kMostOfIt * static_cast<double>(segment.count)) continue;
-      if (scan.at_corners && is_at_the_sharpest(corners_, i, s)) continue;
+      if (scan.at_corners() && is_at_the_sharpest(corners_, i, s)) continue;
       const auto part = residual.segment(segment.first + s.first, s.count);
       const double size = std::sqrt(part.square().mean()) / frame_.largest_torque(equation);
       if (size < limits_.beyond_size) continue;

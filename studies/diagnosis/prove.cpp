@@ -145,23 +145,25 @@ void take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, const
   pool.train_rows += train.sum();
 }
 
-// Root of the chi square of some equations: what a cause does there counts by the noise of each.
-double misfit(const Frame& frame, const Findings& findings, const CauseForm& form,
-              const PerEquation& held_out) {
-  double chi_square = 0.0;
+// Error of the equations that a cause acts on, each over its noise.
+double error_over_noise(const Frame& frame, const Findings& findings, const CauseForm& form,
+                        const PerEquation& residual, const ArrayXd& held) {
+  double sum = 0.0;
   for (Equation equation : form.at) {
     if (!frame.has(equation)) continue;
     const std::size_t e = index_of(equation);
-    chi_square += (held_out[e] * findings.weight[e]).square().sum() / findings.noise[e].colour;
+    const double noise = noise_on(frame, findings.noise[e].level, held);
+    sum += std::pow(rms_on(residual[e], held) / noise, 2) / findings.noise[e].colour;
   }
-  return std::sqrt(chi_square);
+  return std::sqrt(sum);
 }
 
-void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, Proof& proof) {
+void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
+                  Proof& proof) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const CauseForm& form = *s.accepted[i].trial.cause.form;
     const auto of = [&](const PerEquation& residual) {
-      return misfit(frame, s.final, form, residual);
+      return error_over_noise(frame, s.final, form, residual, held);
     };
     proof.cause_ratio.push_back(of(pool.final) / of(pool.without[i]));
     const double instead = of(pool.placebo);
@@ -236,7 +238,7 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
   resample_ratio(frame, held, pool.base[e], pool.final[e], h);
-  prove_causes(frame, s, pool, proof);
+  prove_causes(frame, s, pool, held, proof);
   for (FoldFits& fold : *fits) proof.by_fold.push_back(std::move(fold.final.fit));
   if (e == index_of(Equation::motor)) {
     for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,

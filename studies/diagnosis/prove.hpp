@@ -17,8 +17,7 @@ struct Proof {
   double rmse_train_before = kNotComputed;
   double rmse_train_after = kNotComputed;
   /// Error of the final model over that without a cause, by cause, and of the baseline with an
-  /// absent effect over the baseline: roots of the chi square of the equations that the cause acts
-  /// on.
+  /// absent effect over the baseline; in the equations that the cause acts on, each over its noise.
   std::vector<double> cause_ratio;
   std::vector<double> placebo_ratio;
   /// Measured torque of the equation to prove as the baseline and the final model predict it, all
