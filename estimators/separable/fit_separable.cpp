@@ -9,8 +9,7 @@
 namespace flexspline::estimators {
 namespace {
 
-constexpr double kDifference = 1e-4;    // of a shape's range
-constexpr double kSmallestGain = 1e-7;  // relative fall of the sum of squares that ends the fit
+constexpr double kDifference = 1e-4;  // of a shape's range
 constexpr double kMostDamping = 1e7;
 
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
@@ -200,7 +199,7 @@ std::vector<double> stepped(const SeparableProblem& problem, const std::vector<d
 }
 
 // Marquardt's damping: raised until the sum of squares falls. False where it no longer does.
-bool improve(const SeparableProblem& problem, Point& point, double& damping) {
+bool improve(const SeparableProblem& problem, Point& point, double& damping, double smallest_gain) {
   SeparableFit& fit = point.fit;
   const Eigen::MatrixXd j = jacobian(problem, point, fit.evaluations);
   const Eigen::MatrixXd hessian = j.transpose() * j;
@@ -214,7 +213,7 @@ bool improve(const SeparableProblem& problem, Point& point, double& damping) {
     trial.fit.evaluations = ++fit.evaluations;
     if (!(trial.fit.sum_of_squares < fit.sum_of_squares)) continue;
     const bool worthwhile =
-        fit.sum_of_squares - trial.fit.sum_of_squares > kSmallestGain * fit.sum_of_squares;
+        fit.sum_of_squares - trial.fit.sum_of_squares > smallest_gain * fit.sum_of_squares;
     point = std::move(trial);
     damping = std::max(damping / 10.0, 1e-9);
     return worthwhile;
@@ -235,7 +234,8 @@ SeparableFit solve_linear(const SeparableProblem& problem, std::span<const doubl
   return point_at(problem, q).fit;
 }
 
-Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps) {
+Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps,
+                                   double smallest_gain) {
   std::vector<double> q;
   for (const ShapeBound& shape : problem.shapes) {
     q.push_back(std::clamp(shape.start, shape.lower, shape.upper));
@@ -247,7 +247,7 @@ Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_ste
   }
   double damping = 1e-3;
   for (int step = 0; step < most_steps && !q.empty(); ++step) {
-    if (!improve(problem, point, damping)) break;
+    if (!improve(problem, point, damping, smallest_gain)) break;
   }
   return std::move(point.fit);
 }

@@ -132,6 +132,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   auto mistaken = data::sanity_of(all);
   if (data::stops_science(mistaken)) return mistaken_diagnosis(all, std::move(mistaken));
   limits.threads = settings.threads;
+  limits.size = settings.interest;
   const auto decision = decide(all, settings, limits, progress);
   if (!decision) return tl::unexpected(decision.error());
   Diagnosis d = spelled(all, *decision, limits);

@@ -22,8 +22,9 @@ Result<void> leave_out_unproved(const Frame& frame, const Limits& limits, Select
 }
 
 // With every recording counted from where the causes fit it best.
-Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& progress) {
-  auto selection = select_causes(frame, limits, progress);
+Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& progress,
+                          const Selection* from) {
+  auto selection = select_causes(frame, limits, progress, from);
   if (!selection || !frame.own_zeros) return selection;
   auto moved = with_fitted_zeros(frame, selection->final);
   if (!moved) return tl::unexpected(moved.error());
@@ -32,19 +33,21 @@ Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& pr
 }
 
 // Again without a stretch of one recording that has something of its own, until none has.
-Result<Selection> beside_incidents(Frame& frame, const Limits& limits, const Progress& progress) {
-  auto selection = aligned(frame, limits, progress);
+Result<Selection> beside_incidents(Frame& frame, const Limits& limits, const Progress& progress,
+                                   const Selection* from) {
+  auto selection = aligned(frame, limits, progress, from);
   while (selection && frame.incidents.size() < limits.incidents) {
     const auto incident = find_incident(frame, selection->final, limits);
     if (!incident) break;
     frame = without_incident(std::move(frame), *incident);
-    selection = aligned(frame, limits, progress);
+    selection = aligned(frame, limits, progress, nullptr);
   }
   return selection;
 }
 
-Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress) {
-  auto selection = beside_incidents(frame, limits, progress);
+Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress,
+                         const Selection* from = nullptr) {
+  auto selection = beside_incidents(frame, limits, progress, from);
   if (!selection) return tl::unexpected(selection.error());
   if (progress) progress(0.75, "proving on recordings held out");
   const auto proved = leave_out_unproved(frame, limits, *selection);
@@ -68,7 +71,7 @@ std::string gap_in_words(const Finding& free_f, const Finding& gap) {
 Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& progress) {
   auto free_f = found_in(std::move(frame), limits, progress);
   if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection)) return free_f;
-  auto gap = found_in(with_firm_spring(free_f->frame), limits, progress);
+  auto gap = found_in(with_firm_spring(free_f->frame), limits, progress, &free_f->selection);
   if (!gap) return gap;
   if (!tells_a_gap(gap->selection, free_f->proof, gap->proof)) return free_f;
   gap->frame.notes.push_back(gap_in_words(*free_f, *gap));

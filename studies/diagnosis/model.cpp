@@ -15,10 +15,11 @@ using Eigen::Index;
 using estimators::SeparableBlock;
 using estimators::ShapeBound;
 
-// Of the torsion, over its range. Beside an offset of the torque a zero is nearly the same, and what
-// is left to tell them apart are the spring's bends.
+// Of the torsion, over its range. Beside an offset of the torque a zero is nearly the same, and
+// what is left to tell them apart are the spring's bends.
 constexpr double kMostZeroError = 0.3;
 constexpr double kMostBesideOffset = 0.1;
+constexpr double kSmallestGain = 1e-5;  // of the sum of squares: a tenth in chi square of 10^4 rows
 constexpr double kFree = -std::numeric_limits<double>::infinity();
 
 // Searched in the logarithm where a shape is.
@@ -243,7 +244,7 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
     }
     return blocks;
   };
-  const auto solved = estimators::fit_separable(problem, most_steps);
+  const auto solved = estimators::fit_separable(problem, most_steps, kSmallestGain);
   if (!solved) return tl::unexpected(solved.error());
   ModelFit fit;
   fit.model = layout.at(solved->q);

@@ -171,6 +171,7 @@ Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selecti
     if (!cause) return {};
     s.final.fit = std::move(worth->without[*cause]);
     s.accepted[*cause].withdrawn_because = because;
+    s.redundant.push_back(s.accepted[*cause].trial.cause.row);
     if (s.accepted[*cause].material) s.withdrawn.push_back(std::move(s.accepted[*cause]));
     s.accepted.erase(s.accepted.begin() + static_cast<long>(*cause));
     const auto again = refresh(frame, s.final, kRefreshSteps);

@@ -15,9 +15,11 @@ using Eigen::ArrayXd;
 
 constexpr int kBaselineSteps = 15;
 constexpr int kFirstSteps = 3;
-constexpr int kRefineSteps = 12;
+constexpr int kRefineSteps = 4;
+constexpr int kFinishSteps = 12;
 constexpr int kNoisePasses = 3;           // the noise is measured on a fit that it weights
 constexpr double kWorthRefining = 0.03;   // of the best first gain
+constexpr double kWorthFinishing = 0.3;   // of the best gain when refined
 constexpr std::size_t kMostRefined = 12;  // the best was never beyond the seventh in 188 searches
 constexpr std::size_t kMostThreads = 8;
 
@@ -213,14 +215,9 @@ void take_better(Result<ModelFit>& fit, Result<ModelFit> other) {
   if (total(other) < total(fit)) fit = std::move(other);
 }
 
-Trial refined(const Frame& frame, const Findings& findings, const FirstLook& look,
-              std::size_t tried) {
-  Trial trial{.cause = {look.row, look.form, look.shape}};
-  auto fit = extended(frame, findings, trial.cause, kRefineSteps);
-  if (look.form->transform != nullptr) take_better(fit, from_scratch(frame, findings, trial.cause));
-  if (!fit) return trial;
-  trial.fit = std::move(*fit);
-  trial.cause = trial.fit.model.causes.back();
+// What a fit with a cause gains, and how large that cause is in it.
+Trial judged(const Frame& frame, const Findings& findings, ModelFit fit, std::size_t tried) {
+  Trial trial{.cause = fit.model.causes.back(), .fit = std::move(fit)};
   trial.parameters = parameters_of(trial.cause, trial.fit);
   trial.gain = chi_square(findings, findings.fit, frame) - chi_square(findings, trial.fit, frame);
   trial.net_gain = trial.gain - search_penalty(tried) -
@@ -230,6 +227,21 @@ Trial refined(const Frame& frame, const Findings& findings, const FirstLook& loo
   trial.size = size_of(frame, findings, trial);
   trial.change = change_of(frame, findings, trial);
   return trial;
+}
+
+Trial refined(const Frame& frame, const Findings& findings, const FirstLook& look,
+              std::size_t tried) {
+  const ActiveCause cause{look.row, look.form, look.shape};
+  auto fit = extended(frame, findings, cause, kRefineSteps);
+  if (look.form->transform != nullptr) take_better(fit, from_scratch(frame, findings, cause));
+  return fit ? judged(frame, findings, std::move(*fit), tried) : Trial{.cause = cause};
+}
+
+// The same fit to its end.
+void finish(const Frame& frame, const Findings& findings, std::size_t tried, Trial& trial) {
+  auto fit = fit_part(frame, findings, trial.fit,
+                      linked(frame, trial.fit.model.causes, trial.cause), kFinishSteps);
+  if (fit) trial = judged(frame, findings, std::move(*fit), tried);
 }
 
 std::size_t searchers(unsigned wanted) {
@@ -360,6 +372,11 @@ std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsi
   std::vector<Trial> trials(worth);
   in_parallel(worth, searchers(threads),
               [&](std::size_t i) { trials[i] = refined(frame, findings, looks[i], tried); });
+  double best = 0.0;
+  for (const Trial& trial : trials) best = std::max(best, trial.gain);
+  in_parallel(worth, searchers(threads), [&](std::size_t i) {
+    if (trials[i].gain > kWorthFinishing * best) finish(frame, findings, tried, trials[i]);
+  });
   keep_best_of_each(trials);
   return trials;
 }

@@ -29,8 +29,10 @@ Accepted accepted_as(Trial trial, const Limits& limits) {
 }
 
 // The best, or a part of the baseline beside which it gains less than a name has to.
-std::size_t chosen(const std::vector<Trial>& trials, const Limits& limits) {
-  const auto may_be = [&](const Trial& trial) { return admissible(trial, limits); };
+std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const Limits& limits) {
+  const auto may_be = [&](const Trial& trial) {
+    return admissible(trial, limits) && std::ranges::count(s.redundant, trial.cause.row) == 0;
+  };
   const auto best = std::ranges::find_if(trials, may_be);
   const auto part = std::ranges::find_if(trials, [&](const Trial& trial) {
     return may_be(trial) && trial.cause.row->of_baseline() &&
@@ -90,7 +92,7 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
   for (int round = 0; round < limits.rounds; ++round) {
     if (progress) progress(0.2 + 0.07 * round, fmt::format("trying causes, round {}", round + 1));
     auto trials = try_causes(frame, s.final, limits.threads);
-    const std::size_t best = chosen(trials, limits);
+    const std::size_t best = chosen(trials, s, limits);
     if (best == trials.size()) {
       s.last_field = std::move(trials);
       return {};
@@ -173,6 +175,15 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
   return {};
 }
 
+// The causes of another selection, fitted to this frame.
+Result<void> take_causes(const Frame& frame, const Selection& from, Selection& s) {
+  s.accepted = from.immaterial;
+  s.accepted.insert(s.accepted.end(), from.accepted.begin(), from.accepted.end());
+  s.redundant = from.redundant;
+  s.final.fit.model = from.final.fit.model;
+  return fit_again(frame, s);
+}
+
 }  // namespace
 
 bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
@@ -186,12 +197,17 @@ bool is_taken_up(const Trial& trial, const Limits& limits) {
 }
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
-                                const std::function<void(double, std::string_view)>& progress) {
+                                const std::function<void(double, std::string_view)>& progress,
+                                const Selection* from) {
   auto baseline = fit_baseline(frame);
   if (!baseline) return tl::unexpected(baseline.error());
   Selection s;
   s.baseline = *baseline;
   s.final = std::move(*baseline);
+  if (from != nullptr) {
+    const auto taken = take_causes(frame, *from, s);
+    if (!taken) return tl::unexpected(taken.error());
+  }
   const auto found = search(frame, limits, s, progress);
   if (!found) return tl::unexpected(found.error());
   const auto cleared = take_out_needless(frame, limits, s);

@@ -69,7 +69,8 @@ struct Selection {
   double removed = 0.0;                 ///< share of the misfit that the causes remove
   bool remainder = false;               ///< something is left beyond noise
   bool unproved = false;  ///< a cause took much of the misfit, and none on recordings held out
-  std::vector<Accepted> withdrawn;  ///< causes that explain too little to be named
+  std::vector<Accepted> withdrawn;         ///< causes that explain too little to be named
+  std::vector<const CauseRow*> redundant;  ///< what the others explain as well, named or not
 };
 
 /// True for a part of the baseline that adds more to its law than such parts do: something else.
@@ -80,9 +81,11 @@ bool is_taken_up(const Trial& trial, const Limits& limits);
 
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. What is too small to matter becomes part of the baseline. Causes that together leave
-/// most of the misfit are withdrawn.
+/// most of the misfit are withdrawn. Where another selection of nearly the same frame is given, it
+/// goes on from its causes, and what was redundant there is not tried again.
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
-                                const std::function<void(double, std::string_view)>& progress);
+                                const std::function<void(double, std::string_view)>& progress,
+                                const Selection* from = nullptr);
 
 /// Withdraws one of the accepted causes, fits the others again and judges what they explain.
 Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& selection,

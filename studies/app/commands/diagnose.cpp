@@ -6,12 +6,12 @@
 #include "command.hpp"
 #include "dataset_study.hpp"
 #include "diagnosis_artefact.hpp"
-#include "diagnosis_engine.hpp"
 #include "diagnosis_summary.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "flexspline/data/model_toml.hpp"
 #include "flexspline/reports/report.hpp"
+#include "interest.hpp"
 #include "output_folder.hpp"
 
 namespace flexspline::app {
@@ -52,8 +52,8 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   const auto recordings = data::load_dataset(arguments.text("dataset"), *rows);
   if (!recordings) return tl::unexpected(recordings.error());
   for (const std::string& note : recordings->notes) console.say(note);
-  const auto engine = engine_of(arguments);
-  if (!engine) return tl::unexpected(engine.error());
+  const auto interest = interest_of(arguments);
+  if (!interest) return tl::unexpected(interest.error());
   const std::filesystem::path dataset = arguments.text("dataset");
   auto output = OutputFolder::claim({"diagnose",
                                      arguments.text("out"),
@@ -63,7 +63,10 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
                                      {dataset},
                                      arguments.has("force")});
   if (!output) return tl::unexpected(output.error());
-  const auto diagnosis = (*engine)(*recordings, progress_on(console));
+  const auto diagnosis = studies::diagnose(*recordings, progress_on(console),
+                                           {.holdout = arguments.texts("holdout"),
+                                            .nested = !arguments.has("quick"),
+                                            .interest = *interest});
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
   console.say(
       fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
@@ -103,7 +106,6 @@ CommandRow describe_diagnose() {
                          .meaning = "no search in outer folds: a third of the time, and a proof "
                                     "that is cross-validated, its selection not nested",
                          .value = ""},
-                        engine_argument(),
                         interest_argument(),
                         rows_argument(),
                         kForce},

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "diagnosis_engine.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/studies/trial.hpp"
+#include "interest.hpp"
 #include "output_folder.hpp"
 #include "run_folder.hpp"
 #include "version.hpp"
@@ -110,9 +110,9 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   settings.run.build_id = build_id();
   settings.run.folder = where->folder;
   settings.recordings = arguments.text("recordings");
-  const auto diagnosis = engine_words(arguments);
-  if (!diagnosis) return tl::unexpected(diagnosis.error());
-  settings.diagnosis = *diagnosis;
+  const auto interest = interest_of(arguments);
+  if (!interest) return tl::unexpected(interest.error());
+  if (arguments.has("interest")) settings.diagnosis["interest"] = fmt::format("{}", *interest);
   auto recordings = keep_recordings(*trial, arguments);
   if (!recordings) return tl::unexpected(recordings.error());
   std::filesystem::path page;
@@ -142,7 +142,6 @@ CommandRow describe_trial() {
            {.name = "--data-root",
             .meaning = "folder of the data sets to splice into; default: the trial file's",
             .value = "DIR"},
-           engine_argument(),
            interest_argument(),
            {.name = "--recordings",
             .meaning = "keep every case's data set in this folder; "

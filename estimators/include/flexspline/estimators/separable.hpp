@@ -62,9 +62,11 @@ struct SeparableFit {
 SeparableFit solve_linear(const SeparableProblem& problem, std::span<const double> q);
 
 /// Shapes by Levenberg and Marquardt on the projected residual, its Jacobian after Kaufman (BIT 15,
-/// 1975) by differences of 1e-4 of each shape's range; at most that many steps. Local: from the
-/// start given.
+/// 1975) by differences of 1e-4 of each shape's range; at most that many steps, and none after one
+/// by which the sum of squares falls by no more than smallest_gain of itself. Local: from the start
+/// given.
 /// Errors: numerics where the start gives no numbers.
-Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps);
+Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps,
+                                   double smallest_gain = 1e-7);
 
 }  // namespace flexspline::estimators

@@ -198,6 +198,7 @@ struct DiagnosisSettings {
   /// Where nothing is taken away: the whole search once more in every outer fold, without the rows
   /// that it is judged on. Without it the proof is cross-validated, the selection not nested.
   bool nested = true;
+  double interest = 0.008;  ///< share of the largest torque below which no cause is named
 };
 
 /// Locates where the baseline of the rig and the recordings differ, names what was left out, models
