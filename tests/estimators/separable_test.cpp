@@ -71,6 +71,17 @@ TEST(Separable, RecoversASumOfTwoDecays) {
   EXPECT_LT(fit.sum_of_squares, 1e-8);
 }
 
+TEST(Separable, EndsWhereAStepGainsTooLittle) {
+  const VectorXd t = times();
+  const VectorXd y = 2.0 * decay(0.5, t) - 1.2 * decay(3.0, t);
+  const auto problem = decay_problem(y, {{0.9, 0.1, 1.5}, {5.0, 1.6, 9.0}}, kFree);
+  const auto far = fit_separable(problem, kSteps);
+  const auto near = fit_separable(problem, kSteps, 0.9);
+  ASSERT_TRUE(far && near);
+  EXPECT_LT(near->evaluations, far->evaluations);
+  EXPECT_GT(near->sum_of_squares, far->sum_of_squares);
+}
+
 TEST(Separable, TheResidualStandsUprightOnEveryFreeColumn) {
   const VectorXd t = times();
   const VectorXd y = VectorXd(2.0 * decay(0.5, t)) + disturbance(t);

@@ -59,6 +59,18 @@ TEST_F(DiagnoseCommand, ExitsWith0AndPrintsWhatTheArtefactSays) {
   EXPECT_EQ(printed.at("dataset").at("sha256").get<std::string>().size(), 64u);
 }
 
+TEST_F(DiagnoseCommand, NamesNothingBelowWhatInterests) {
+  const auto causes = [&](const std::string& options) {
+    const Finished done = diagnose(" --quick --json" + options);
+    EXPECT_EQ(done.code, 0);
+    return nlohmann::json::parse(done.result).at("causes").size();
+  };
+  EXPECT_EQ(causes(""), 1U);
+  EXPECT_EQ(causes(" --interest 20%"), 0U);
+  EXPECT_EQ(diagnose(" --interest 200%").code, 2);
+  EXPECT_EQ(diagnose(" --interest '1 Nm'").code, 2);
+}
+
 TEST_F(DiagnoseCommand, TheSameRecordingsGiveTheSameBytes) {
   const std::vector<std::string> files = {"diagnosis.json", "index.html", "report/report.json"};
   ASSERT_EQ(diagnose().code, 0);

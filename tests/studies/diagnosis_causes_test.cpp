@@ -9,6 +9,7 @@
 #include "diagnosis/cause.hpp"
 #include "diagnosis/model.hpp"
 #include "diagnosis/search.hpp"
+#include "diagnosis_checks.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {
@@ -314,6 +315,12 @@ TEST(Causes, OfTheTorqueSignalKeepTheRatioOfTheirEquations) {
     }
   }
   EXPECT_GE(checked, 4);
+}
+
+// The channel of the motor's torque ripples, and was zeroed where the motor stood.
+TEST(MotorTorqueRipple, OfAChannelHasTheChannelsZero) {
+  const auto made = drawn_case(Rig::servo, 8, {{"variant:motor_crosstalk", 0.07}});
+  EXPECT_EQ(names(diagnosed(made.recordings)), std::vector<std::string>{"motor_torque_ripple"});
 }
 
 }  // namespace

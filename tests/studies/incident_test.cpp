@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "autoregression.hpp"
@@ -57,6 +59,47 @@ TEST(Incident, NoiseHasNoneNorHasWhatEveryRecordingHas) {
   const double torque = frame.largest_torque(Equation::load);
   for (const Index first : {1000, 4000}) both.segment(first, 200).setConstant(0.03 * torque);
   EXPECT_FALSE(find_incident(frame, leaving(frame, both), {}));
+}
+
+// Most of a recording lies behind it: its own size is no unit to measure it in.
+TEST(Incident, AStepThatLastsForMostOfARecordingIsFound) {
+  const Frame frame = closed_form_frame(6000);
+  ArrayXd what = ArrayXd::Zero(frame.rows());
+  what.segment(3600, 2400).setConstant(0.05 * frame.largest_torque(Equation::load));
+  const auto found = find_incident(frame, leaving(frame, what), {});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(static_cast<double>(found->first), 3600.0, 5.0);
+  EXPECT_EQ(found->first + found->count, frame.rows());
+}
+
+/// Corners of the motion at these rows.
+Frame with_corners(Frame frame, const std::vector<Index>& rows) {
+  const double jump = 10.0 * frame.motor_acceleration.abs().maxCoeff();
+  for (const Index row : rows) frame.motor_acceleration[row] += jump;
+  return frame;
+}
+
+TEST(Incident, WhatEveryCornerMissesIsNoneAndAPulseAtOneOfThemIs) {
+  const std::vector<Index> corners = {500, 1100, 1900, 2500, 3600, 4400, 5200};
+  const Frame frame = with_corners(closed_form_frame(6000), corners);
+  const double torque = frame.largest_torque(Equation::load);
+  ArrayXd at_all = ArrayXd::Zero(frame.rows());
+  for (const Index row : corners) at_all.segment(row - 10, 20).setConstant(0.03 * torque);
+  EXPECT_FALSE(find_incident(frame, leaving(frame, at_all), {}));
+  ArrayXd at_one = ArrayXd::Zero(frame.rows());
+  at_one.segment(4385, 30).setConstant(0.06 * torque);
+  const auto found = find_incident(frame, leaving(frame, at_one), {});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_LE(found->first, 4400);
+  EXPECT_GE(found->first + found->count, 4400);
+}
+
+TEST(Incident, WhatStandsAtTheSharpestCornerOfAllIsNone) {
+  Frame frame = with_corners(closed_form_frame(6000), {1900, 4400});
+  frame.motor_acceleration[4400] *= 2.0;
+  ArrayXd what = ArrayXd::Zero(frame.rows());
+  what.segment(4391, 18).setConstant(0.06 * frame.largest_torque(Equation::load));
+  EXPECT_FALSE(find_incident(frame, leaving(frame, what), {}));
 }
 
 // Slow noise of one recording has a mean from some row on that differs from the one before.
