@@ -80,7 +80,12 @@ class Corners {
   }
 
   bool at(Index row) const { return touched(row, 1); }
-  bool touched(Index first, Index count) const { return count_[first + count] > count_[first]; }
+  /// Whether there is one among these rows, or so many further.
+  bool touched(Index first, Index count, Index further = 0) const {
+    const Index from = std::max<Index>(0, first - further);
+    const Index to = std::min(sharpness_.size(), first + count + further);
+    return count_[to] > count_[from];
+  }
   /// Largest change of the acceleration in a row.
   double sharpest(Index first, Index count) const {
     return count > 0 ? sharpness_.segment(first, count).maxCoeff() : 0.0;
@@ -97,8 +102,10 @@ class Best {
  public:
   Best(const Corners& corners, bool at_corners) : corners_(corners), at_corners_(at_corners) {}
 
-  void take(double nats, Index first, Index count) {
-    if (corners_.touched(first, count) == at_corners_) tried_.push_back({nats, first, count, 0.0});
+  /// further: rows beside it that have a say in it.
+  void take(double nats, Index first, Index count, Index further = 0) {
+    if (corners_.touched(first, count, further) != at_corners_) return;
+    tried_.push_back({nats, first, count, 0.0});
   }
 
   Stretch found() const {
@@ -190,7 +197,7 @@ void by_pulse(const ArrayXd& residual, Best& best) {
     const double spread = std::max(usual_size(means), std::sqrt(static_cast<double>(width)));
     for (Index i = 0; i < count; ++i) {
       const double z = (sum[i + width] - sum[i]) / spread;
-      best.take(0.5 * z * z, i + kHalfWindow, width);
+      best.take(0.5 * z * z, i + kHalfWindow, width, kHalfWindow);
     }
   }
 }
