@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <boost/math/special_functions/erf.hpp>
@@ -43,20 +44,33 @@ double standard_within(double low, double high, std::mt19937_64& engine) {
   return std::clamp(from_beyond(share), low, high);
 }
 
+// Those that have a variance: what recordings say nothing of stays where it is.
+std::vector<Eigen::Index> varying(const BoundedNormal& law) {
+  std::vector<Eigen::Index> list;
+  for (Eigen::Index k = 0; k < law.mean.size(); ++k) {
+    if (law.covariance(k, k) > 0.0) list.push_back(k);
+  }
+  return list;
+}
+
 }  // namespace
 
 Eigen::MatrixXd draws_of(const BoundedNormal& law, Eigen::VectorXd start, Eigen::Index count,
                          std::uint64_t seed) {
-  const Eigen::Index size = law.mean.size();
-  const Eigen::VectorXd scale = law.covariance.diagonal().cwiseSqrt();
+  const auto which = varying(law);
+  const auto size = static_cast<Eigen::Index>(which.size());
+  const Eigen::VectorXd mean = law.mean(which);
+  const Eigen::MatrixXd covariance = law.covariance(which, which);
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt();
   const Eigen::MatrixXd correlation =
-      scale.cwiseInverse().asDiagonal() * law.covariance * scale.cwiseInverse().asDiagonal();
+      scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd precision = correlation.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
-  const Eigen::VectorXd lower = (law.lower - law.mean).cwiseQuotient(scale);
-  const Eigen::VectorXd upper = (law.upper - law.mean).cwiseQuotient(scale);
-  Eigen::VectorXd x = (start - law.mean).cwiseQuotient(scale);
+  if (!(precision.diagonal().array() > 0.0).all()) return {};
+  const Eigen::VectorXd lower = (law.lower(which) - mean).cwiseQuotient(scale);
+  const Eigen::VectorXd upper = (law.upper(which) - mean).cwiseQuotient(scale);
+  Eigen::VectorXd x = (start(which) - mean).cwiseQuotient(scale);
   std::mt19937_64 engine(seed);
-  Eigen::MatrixXd draws(count, size);
+  Eigen::MatrixXd draws(count, law.mean.size());
   for (Eigen::Index sweep = 0; sweep < kSettle + kBetween * count; ++sweep) {
     for (Eigen::Index k = 0; k < size; ++k) {
       const double own = precision(k, k);
@@ -67,7 +81,8 @@ Eigen::MatrixXd draws_of(const BoundedNormal& law, Eigen::VectorXd start, Eigen:
     }
     const Eigen::Index since = sweep - kSettle;
     if (since >= 0 && since % kBetween == 0) {
-      draws.row(since / kBetween) = (law.mean + x.cwiseProduct(scale)).transpose();
+      start(which) = mean + x.cwiseProduct(scale);
+      draws.row(since / kBetween) = start.transpose();
     }
   }
   return draws;

@@ -10,13 +10,15 @@ namespace flexspline::estimators {
 /// law where the truth is known to lie within them.
 struct BoundedNormal {
   Eigen::VectorXd mean;        ///< of the law before it is cut; may lie outside
-  Eigen::MatrixXd covariance;  ///< positive definite
+  Eigen::MatrixXd covariance;  ///< positive definite but for parameters without a variance
   Eigen::VectorXd lower;
   Eigen::VectorXd upper;
 };
 
 /// Draws, a row each, by Gibbs' sampler (Geweke 1991), from a start within the bounds; each is some
-/// sweeps away from the last. The same seed gives the same draws.
+/// sweeps away from the last. A parameter whose row of the covariance is zero stays at its start.
+/// The same seed gives the same draws. Empty where the covariance of the others is not positive
+/// definite.
 Eigen::MatrixXd draws_of(const BoundedNormal& law, Eigen::VectorXd start, Eigen::Index count,
                          std::uint64_t seed);
 

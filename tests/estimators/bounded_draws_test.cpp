@@ -56,6 +56,26 @@ TEST(BoundedDraws, WithoutBoundsAreNormal) {
   EXPECT_TRUE(covariance.isApprox(law.covariance, 0.05)) << covariance;
 }
 
+TEST(BoundedDraws, OfAParameterWithoutAVarianceStayAtItsStart) {
+  BoundedNormal law;
+  law.mean = Eigen::Vector2d(0.0, 5.0);
+  law.covariance = Eigen::Vector2d(9.0, 0.0).asDiagonal();
+  law.lower = Eigen::Vector2d::Zero();
+  law.upper = Eigen::VectorXd::Constant(2, kInfinity);
+  const Eigen::MatrixXd draws = draws_of(law, Eigen::Vector2d(0.0, 2.0), 20000, 1);
+  EXPECT_TRUE((draws.col(1).array() == 2.0).all());
+  EXPECT_EQ(draws.col(0), draws_of(half_line(0.0, 3.0), Eigen::VectorXd::Zero(1), 20000, 1).col(0));
+}
+
+TEST(BoundedDraws, OfNoLawAreNone) {
+  BoundedNormal law = half_line(0.0, 1.0);
+  law.mean = law.lower = Eigen::Vector2d::Zero();
+  law.upper = Eigen::VectorXd::Constant(2, kInfinity);
+  law.covariance.resize(2, 2);
+  law.covariance << 1.0, 2.0, 2.0, 1.0;
+  EXPECT_EQ(draws_of(law, law.mean, 100, 1).size(), 0);
+}
+
 // Against draws of the whole law of which those outside are thrown away.
 TEST(BoundedDraws, FollowTheirCorrelation) {
   BoundedNormal law;
