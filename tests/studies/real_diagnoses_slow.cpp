@@ -115,8 +115,7 @@ const std::vector<Row> kDiagnosed = {
      "iiwa-j1",
      {},
      "joint-1-delay",
-     {"sensor_delay delay", "sensor_delay time_constant", "inertia_torque inertia",
-      "inertia_torque time_constant"}},
+     {"sensor_delay delay", "sensor_delay time_constant", "inertia_torque inertia"}},
     {"real-joint-4", "iiwa-j4"},
     {"real-joint-6", "iiwa-j6"},
     {"real-servo", "xl330-pendulum"}};
