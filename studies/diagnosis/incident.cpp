@@ -223,6 +223,9 @@ class Scans {
         weighted_(residual_ * findings.weight[index_of(equation)]),
         at_corners_(usual_size(weighted_ * corner_rows())) {}
 
+  /// Size of the residual over the noise.
+  double usual() const { return usual_size(weighted_); }
+
   std::vector<Scan> all() const {
     std::vector<Scan> list = {
         {each([this](std::size_t i) { return by_step(weighted(i)); }), Scan::Of::steps}};
@@ -312,13 +315,16 @@ class Sought {
         limits_(limits),
         chance_(std::log(static_cast<double>(frame.rows()))) {}
 
-  void take(const Scan& scan, Equation equation, const ArrayXd& residual) {
+  /// usual: size of the residual over the noise; where the model misses more than that, its
+  /// likelihood counts for less (quasi-likelihood: Wedderburn 1974).
+  void take(const Scan& scan, Equation equation, const ArrayXd& residual, double usual) {
+    const double dispersion = std::max(1.0, usual * usual);
     for (std::size_t i = 0; i < scan.best.size(); ++i) {
       const Stretch& s = scan.best[i];
       const Segment& segment = frame_.segments[i];
       // A search over so many stretches gains as much on noise.
       const double beyond = s.nats - chance_;
-      const double least = kBeyondSearch * (scan.unsure() ? kUnsure : 1.0);
+      const double least = kBeyondSearch * dispersion * (scan.unsure() ? kUnsure : 1.0);
       if (beyond < least || s.nats <= most_) continue;
       if (largest_beside(scan, i) - chance_ > kAgain * beyond) continue;
       if (static_cast<double>(s.count) > kMostOfIt * static_cast<double>(segment.count)) continue;
@@ -362,8 +368,9 @@ std::optional<Incident> find_incident(const Frame& frame, const Findings& findin
   for (const Segment& s : frame.segments) corners.emplace_back(frame, s);
   Sought sought(frame, corners, limits);
   for (const Equation equation : frame.equations) {
-    for (const Scan& scan : Scans(frame, corners, findings, equation).all()) {
-      sought.take(scan, equation, findings.fit.residual[index_of(equation)]);
+    const Scans scans(frame, corners, findings, equation);
+    for (const Scan& scan : scans.all()) {
+      sought.take(scan, equation, findings.fit.residual[index_of(equation)], scans.usual());
     }
   }
   if (sought.found() == nullptr) return std::nullopt;
