@@ -22,7 +22,7 @@ ArgumentInfo interest_argument() {
 Result<double> interest_of(const Arguments& arguments) {
   if (!arguments.has("interest")) return studies::DiagnosisSettings{}.interest;
   const auto share =
-      parse_quantity("--interest", arguments.text("interest"), Dimension::dimensionless);
+      parse_quantity("interest", arguments.text("interest"), Dimension::dimensionless);
   if (share && !(*share >= kLeast && *share <= kMost)) {
     return failure(
         ErrorCode::usage,
