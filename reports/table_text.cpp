@@ -112,9 +112,12 @@ Table without_empty_columns(Table table) {
   return table;
 }
 
+Column errors_of_signal(std::string name) { return {std::move(name), "%", 2, 100.0}; }
+
 std::string shown(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   const double value = std::get<double>(cell);
+  if (value > column.most) return "diverged";
   return column.digits == 0 ? compact(value, 6) : digits(value, column.digits);
 }
 

@@ -37,7 +37,7 @@ Table side_by_side(const StudyView& view) {
       {}};
   const auto each = [&](const std::string& quantity) {
     for (const EstimatorView* estimator : principal) {
-      table.columns.push_back({quantity + ", " + estimator->id, "%", 2});
+      table.columns.push_back(errors_of_signal(quantity + ", " + estimator->id));
     }
   };
   for (const char* function : {"f", "g_inverse"}) each(function_label(function));
@@ -61,13 +61,16 @@ Table side_by_side(const StudyView& view) {
 
 /// Every estimator, with the recording on which it is worst.
 Table in_full(const StudyView& view) {
-  Table table{
-      "function-and-effort-errors",
-      "The same for every estimator, with the recording on which it is worst.",
-      {{"input", "", 3}, {"estimator", "", 3}, {"f", "%", 2}, {"g⁻¹", "%", 2}, {"h", "%", 2}},
-      {}};
+  Table table{"function-and-effort-errors",
+              "The same for every estimator, with the recording on which it is worst.",
+              {{"input", "", 3},
+               {"estimator", "", 3},
+               errors_of_signal("f"),
+               errors_of_signal("g⁻¹"),
+               errors_of_signal("h")},
+              {}};
   for (const TorqueColumn& column : kTorqueColumns) {
-    table.columns.push_back({std::string("torque, ") + column.name, "%", 2});
+    table.columns.push_back(errors_of_signal(std::string("torque, ") + column.name));
     table.columns.push_back({"worst at", "", 3});
   }
   for (const Input& input : view.artefacts().inputs) {

@@ -41,8 +41,8 @@ Table in_full(const StudyView& view) {
               {{"input", "", 3},
                {"estimator", "", 3},
                {"recordings held out", "", 0},
-               {"median", "%", 2},
-               {"worst", "%", 2},
+               errors_of_signal("median"),
+               errors_of_signal("worst"),
                {"where, or why there is no number", "", 3}},
               {}};
   for (const Input& input : view.artefacts().inputs) {
@@ -59,8 +59,8 @@ Table side_by_side(const StudyView& view) {
   Table table{"hold-out", kWhatIsShown, {{"input", "", 3}}, {}};
   const auto principal = view.principal();
   for (const EstimatorView* estimator : principal) {
-    table.columns.push_back({estimator->id + ", median", "%", 2});
-    table.columns.push_back({estimator->id + ", worst", "%", 2});
+    table.columns.push_back(errors_of_signal(estimator->id + ", median"));
+    table.columns.push_back(errors_of_signal(estimator->id + ", worst"));
     table.columns.push_back({"worst at", "", 3});
   }
   for (const Input& input : view.artefacts().inputs) {

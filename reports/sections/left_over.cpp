@@ -39,7 +39,7 @@ Table by_recording(const StudyView& view, const Input& input) {
               {}};
   const auto places = common_places(view, input);
   for (const InputRecording* place : places) {
-    table.columns.push_back({relative_place(point, *place), "%", 2});
+    table.columns.push_back(errors_of_signal(relative_place(point, *place)));
   }
   for (const EstimatorView& estimator : view.estimators()) {
     const Case* item = view.find(input, estimator);

@@ -22,8 +22,8 @@ Table side_by_side(const StudyView& view) {
               {}};
   const auto principal = view.principal();
   for (const EstimatorView* estimator : principal) {
-    table.columns.push_back({estimator->id + ", rmse", "%", 2});
-    table.columns.push_back({estimator->id + ", area", "%", 2});
+    table.columns.push_back(errors_of_signal(estimator->id + ", rmse"));
+    table.columns.push_back(errors_of_signal(estimator->id + ", area"));
   }
   for (const Input& input : view.artefacts().inputs) {
     std::vector<Cell> row{input.title, view.operating_point(input).recording};
@@ -43,8 +43,8 @@ Table in_full(const StudyView& view) {
               {{"input", "", 3},
                {"estimator", "", 3},
                {"rmse", "Nm or N", 3},
-               {"rmse", "%", 2},
-               {"area", "%", 2}},
+               errors_of_signal("rmse"),
+               errors_of_signal("area")},
               {}};
   for (const Input& input : view.artefacts().inputs) {
     for (const EstimatorView& estimator : view.estimators()) {

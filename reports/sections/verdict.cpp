@@ -46,7 +46,6 @@ Spread spread_of(const StudyView& view, const EstimatorView& estimator, Loops lo
   return spread;
 }
 
-/// An error in percent of peak; what exceeds the signal diverged.
 std::string percent_of_peak(double error) {
   return error > 100.0 ? "diverged" : digits(error, 2) + " %";
 }
@@ -78,11 +77,11 @@ Table estimators_table(const StudyView& view) {
        {"what it is", "", 3},
        {"training loops", "", 0},
        {"cases", "", 0},
-       {"training, median", "%", 2},
-       {"training, worst", "%", 2},
-       {"held-out, best", "%", 2},
-       {"held-out, median", "%", 2},
-       {"held-out, worst", "%", 2}},
+       errors_of_signal("training, median"),
+       errors_of_signal("training, worst"),
+       errors_of_signal("held-out, best"),
+       errors_of_signal("held-out, median"),
+       errors_of_signal("held-out, worst")},
       {}};
   for (const EstimatorView& one : view.estimators()) {
     const Spread own = spread_of(view, one, Loops::trained);

@@ -20,19 +20,17 @@ Misfit misfit_of(const Findings& base, const Findings& final, Equation equation)
           static_cast<double>((weight > 0.0).count())};
 }
 
-/// Weighted sums of squares over all equations: what the causes took, what a coordinate still
-/// orders, and what there was.
+/// Weighted sums of squares over all equations: what the causes took and what a coordinate still
+/// orders.
 struct Balance {
   double taken = 0.0;
   double ordered = 0.0;
-  double before = 0.0;
 };
 
 Balance balance_of(const Frame& frame, const Selection& s) {
   Balance b;
   for (Equation equation : frame.equations) {
     const Misfit m = misfit_of(s.baseline, s.final, equation);
-    b.before += m.before;
     b.taken += m.before - m.after;
     for (const CoordinateScore& score : s.after) {
       if (score.equation != equation) continue;
@@ -105,8 +103,7 @@ bool explains_enough(const Frame& frame, const Selection& s, const Limits& limit
   const Balance b = balance_of(frame, s);
   const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
   if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;
-  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit ||
-         b.taken > limits.half * b.before;
+  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit;
 }
 
 bool clears_its_coordinate(const Selection& s, const Accepted& cause, const Limits& limits) {

@@ -28,9 +28,7 @@ struct Limits {
   double apart_from_form = 0.55;  ///< with this share
   double main = 0.95;       ///< share of it that the main ones of too many causes have to remove
   double explained = 0.75;  ///< share of the misfit that the causes have to remove
-  double half = 0.5;        ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;      ///< mean square over noise that counts as explained
-  double unordered = 2.5;   ///< and that is something left, whatever orders it
   double unproved = 0.25;   ///< share of the misfit that an unproved cause cannot take quietly
   double held_out_share = 0.04;  ///< least share that a cause explains of the mean square held out
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in

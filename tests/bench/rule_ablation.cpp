@@ -1,7 +1,11 @@
-// What each rule of the diagnosis buys: the cases of a trial, diagnosed with all rules and without
-// each (docs/decisions/0024).
+// What each rule of the diagnosis buys: the cases of a trial, or data sets, diagnosed with all
+// rules and without each (docs/decisions/0024). Of a trial it prints how many are right, of data
+// sets every answer that differs.
 //   flexspline_rule_ablation TRIAL.toml CASES SEED [RULE...]
+//   flexspline_rule_ablation DATASET... [RULE...]
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -12,6 +16,7 @@
 
 #include "diagnosis/diagnosed.hpp"
 #include "flexspline/core/in_parallel.hpp"
+#include "flexspline/data/dataset.hpp"
 #include "flexspline/studies/trial.hpp"
 
 namespace flexspline::bench {
@@ -42,10 +47,8 @@ std::vector<Rule> rules() {
       {"beyond_form", [](Limits& l) { l.beyond_form = l.apart = kNever; }},
       {"apart", [](Limits& l) { l.apart = kNever; }},
       {"main", [](Limits& l) { l.main = kNever; }},
-      {"explained", [](Limits& l) { l.explained = l.half = 0.0; }},
-      {"half", [](Limits& l) { l.half = kNever; }},
+      {"explained", [](Limits& l) { l.explained = 0.0; }},
       {"misfit", [](Limits& l) { l.misfit = 0.0; }},
-      {"unordered", [](Limits& l) { l.unordered = kNever; }},
       {"unproved", [](Limits& l) { l.unproved = kNever; }},
       {"held_out_share", [](Limits& l) { l.held_out_share = 0.0; }},
       {"causes", [](Limits& l) { l.causes = 99; }},
@@ -137,7 +140,41 @@ void compare(const std::string& rule, const std::vector<ConcealedCase>& cases,
   std::fflush(stdout);
 }
 
-int run(int argc, char** argv) {
+bool is_asked(const Rule& rule, const std::vector<std::string>& asked) {
+  return asked.empty() || std::ranges::count(asked, rule.name) > 0;
+}
+
+int on_data_sets(const std::vector<std::string>& folders, const std::vector<std::string>& asked) {
+  std::vector<RecordingSet> sets;
+  for (const std::string& folder : folders) {
+    auto set = data::load_dataset(folder);
+    if (!set) {
+      fmt::print(stderr, "{}\n", set.error().message());
+      return 1;
+    }
+    sets.push_back(std::move(*set));
+  }
+  std::vector<std::string> base;
+  for (const Rule& rule : rules()) {
+    if (!base.empty() && !is_asked(rule, asked)) continue;
+    Limits limits;
+    rule.without(limits);
+    std::vector<std::string> says(sets.size());
+    in_parallel(sets.size(), 0, [&](std::size_t i) {
+      says[i] = in_words(studies::diagnosed(sets[i], {}, {.threads = 1, .nested = false}, limits));
+    });
+    if (base.empty()) base = std::vector<std::string>(sets.size());
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      if (says[i] != base[i]) fmt::print("{} | {} | {}\n", rule.name, folders[i], says[i]);
+      if (base[i].empty()) base[i] = says[i];
+    }
+    fmt::print("{} | {} data sets\n", rule.name, sets.size());
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+int on_trial(int argc, char** argv) {
   auto trial = studies::load_trial(argv[1]);
   if (!trial) {
     fmt::print(stderr, "{}\n", trial.error().message());
@@ -149,11 +186,10 @@ int run(int argc, char** argv) {
   fmt::print(
       "{} cases\n| without | right | better | worse | false names |\n|---|---|---|---|---|\n",
       cases.size());
+  const std::vector<std::string> asked(argv + 4, argv + argc);
   std::vector<Answer> base;
   for (const Rule& rule : rules()) {
-    bool asked = argc == 4 || base.empty();
-    for (int i = 4; i < argc; ++i) asked = asked || rule.name == argv[i];
-    if (!asked) continue;
+    if (!base.empty() && !is_asked(rule, asked)) continue;
     Limits limits;
     rule.without(limits);
     if (base.empty()) {
@@ -174,7 +210,14 @@ int run(int argc, char** argv) {
 }  // namespace flexspline::bench
 
 int main(int argc, char** argv) {
-  if (argc >= 4) return flexspline::bench::run(argc, argv);
-  fmt::print(stderr, "usage: {} TRIAL.toml CASES SEED [RULE...]\n", argv[0]);
+  std::vector<std::string> folders, rules;
+  for (int i = 1; i < argc; ++i) {
+    (std::filesystem::is_directory(argv[i]) ? folders : rules).push_back(argv[i]);
+  }
+  if (!folders.empty()) return flexspline::bench::on_data_sets(folders, rules);
+  if (argc >= 4) return flexspline::bench::on_trial(argc, argv);
+  fmt::print(stderr,
+             "usage: {0} TRIAL.toml CASES SEED [RULE...]\n       {0} DATASET... [RULE...]\n",
+             argv[0]);
   return 2;
 }

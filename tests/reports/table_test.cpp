@@ -54,6 +54,15 @@ TEST(Numbers, AreShownWithTheDigitsAskedForAndNeverAsZeroWhenAbsent) {
   EXPECT_EQ(digits(std::numeric_limits<double>::quiet_NaN(), 3), "–");
 }
 
+TEST(Numbers, AnErrorLargerThanItsSignalDiverged) {
+  const Column errors = errors_of_signal("worst");
+  EXPECT_EQ(shown(26100.0, errors), "diverged");
+  EXPECT_EQ(shown(99.0, errors), "99");
+  EXPECT_EQ(shown(std::nan(""), errors), shown(std::nan(""), {"worst", "%", 2}));
+  const Table table{"t", "", {errors}, {{26100.0}}};
+  EXPECT_EQ(csv_of(table), "worst / %\n26100\n") << "a file keeps the number";
+}
+
 TEST(Numbers, ThinningKeepsBothEnds) {
   std::vector<double> values;
   for (int i = 0; i < 100; ++i) values.push_back(i);

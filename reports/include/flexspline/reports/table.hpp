@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,7 +14,12 @@ struct Column {
   std::string name;
   std::string unit;  ///< empty: none
   int digits = 3;    ///< significant digits shown to a person, 0: a count; files keep all of them
+  /// Larger numbers are shown as "diverged"; files keep them.
+  double most = std::numeric_limits<double>::infinity();
 };
+
+/// Errors in percent of their signal: one that is larger than the signal diverged.
+Column errors_of_signal(std::string name);
 
 /// A table, from which the page, CSV, Markdown and LaTeX are all written.
 struct Table {
