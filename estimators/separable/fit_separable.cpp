@@ -14,6 +14,7 @@ constexpr double kMostDamping = 1e7;
 
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  if (columns.size() == 0) return gram;
   gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
   return gram.selfadjointView<Eigen::Lower>();
 }

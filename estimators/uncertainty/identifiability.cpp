@@ -37,7 +37,9 @@ double largest_cosine(const Eigen::MatrixXd& of, const Eigen::MatrixXd& rest) {
 
 double scaled_condition(const Eigen::MatrixXd& jacobian) {
   const Eigen::MatrixXd scaled = scaled_columns(jacobian);
-  if (scaled.cols() == 0) return std::numeric_limits<double>::infinity();
+  if (scaled.cols() == 0 || scaled.rows() < scaled.cols()) {
+    return std::numeric_limits<double>::infinity();
+  }
   // The triangular factor has the singular values of the whole.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
   const Eigen::MatrixXd r = qr.matrixQR().topRows(scaled.cols()).triangularView<Eigen::Upper>();

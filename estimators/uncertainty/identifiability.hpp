@@ -10,7 +10,8 @@ namespace flexspline::estimators {
 /// something of `of` can be imitated without a trace.
 double largest_cosine(const Eigen::MatrixXd& of, const Eigen::MatrixXd& rest);
 
-/// Condition number with all columns scaled to length one; columns of zeros are left out.
+/// Condition number with all columns scaled to length one; columns of zeros are left out. Infinite
+/// where nothing is left, or fewer rows than columns.
 double scaled_condition(const Eigen::MatrixXd& jacobian);
 
 }  // namespace flexspline::estimators

@@ -20,17 +20,19 @@ Misfit misfit_of(const Findings& base, const Findings& final, Equation equation)
           static_cast<double>((weight > 0.0).count())};
 }
 
-/// Weighted sums of squares over all equations: what the causes took and what a coordinate still
-/// orders.
+/// Weighted sums of squares over all equations: what the causes took, what a coordinate still
+/// orders, and what there was.
 struct Balance {
   double taken = 0.0;
   double ordered = 0.0;
+  double before = 0.0;
 };
 
 Balance balance_of(const Frame& frame, const Selection& s) {
   Balance b;
   for (Equation equation : frame.equations) {
     const Misfit m = misfit_of(s.baseline, s.final, equation);
+    b.before += m.before;
     b.taken += m.before - m.after;
     for (const CoordinateScore& score : s.after) {
       if (score.equation != equation) continue;
@@ -67,11 +69,6 @@ bool is_left(const CoordinateScore& score, const Limits& limits) {
   return score.statistic > limits.remainder && score.share > limits.remainder_share;
 }
 
-bool stands_out(const Selection& s, const Limits& limits) {
-  return s.accepted.empty() && !s.after.empty() && s.after.front().statistic > limits.doubtless &&
-         s.after.front().share > limits.doubtless_share;
-}
-
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
   const Accepted* most = nullptr;
   if (!s.accepted.empty()) return most;
@@ -103,7 +100,8 @@ bool explains_enough(const Frame& frame, const Selection& s, const Limits& limit
   const Balance b = balance_of(frame, s);
   const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
   if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;
-  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit;
+  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit ||
+         b.taken > limits.half * b.before;
 }
 
 bool clears_its_coordinate(const Selection& s, const Accepted& cause, const Limits& limits) {

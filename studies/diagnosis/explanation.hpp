@@ -10,10 +10,6 @@ double misfit_removed(const Frame& frame, const Selection& s);
 /// True where a coordinate orders more of a residual than noise and small errors of form do.
 bool is_left(const CoordinateScore& score, const Limits& limits);
 
-/// True where nothing is named and a coordinate orders less than that, but beyond doubt. Beside
-/// named causes it may be an error of their form.
-bool stands_out(const Selection& s, const Limits& limits);
-
 /// Of the causes too small to be named the one that takes most away, if it is worth as much as a
 /// named one and orders as much as a remainder: the baseline alone is then no explanation. Null
 /// where there is none, and beside named causes, whose forms may be what it mends.

@@ -171,7 +171,7 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
     judge(frame, s);
   }
   s.remainder = !stands || s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
-                stands_out(s, limits);
+                worst_misfit(frame, s.final) > limits.unordered;
   return {};
 }
 

@@ -19,8 +19,6 @@ struct Limits {
   double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
   double remainder = 24.0;        ///< statistic of a coordinate that says something is left
   double remainder_share = 0.1;   ///< and the share of the residual it has to order
-  double doubtless = 120.0;       ///< where nothing is named, this statistic
-  double doubtless_share = 0.05;  ///< and this share say so, too
   double shadow = 0.03;           ///< gain over that of a larger cause of the same equation
   double twin_shadow = 0.1;       ///< the same over that of one that could stand for it
   double beyond_form = 0.4;  ///< share of that gain that no error in the larger's form explains
@@ -28,7 +26,9 @@ struct Limits {
   double apart_from_form = 0.55;  ///< with this share
   double main = 0.95;       ///< share of it that the main ones of too many causes have to remove
   double explained = 0.75;  ///< share of the misfit that the causes have to remove
+  double half = 0.5;        ///< the same of the whole sum of squares, where noise is unsure
   double misfit = 1.5;      ///< mean square over noise that counts as explained
+  double unordered = 2.5;   ///< and that is something left, whatever orders it
   double unproved = 0.25;   ///< share of the misfit that an unproved cause cannot take quietly
   double held_out_share = 0.04;  ///< least share that a cause explains of the mean square held out
   std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in

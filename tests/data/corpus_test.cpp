@@ -31,8 +31,8 @@ std::vector<std::string> names_of_files() {
 
 void expect_column(const json& wanted, const TableColumn& column,
                    const std::vector<double>& values) {
-  EXPECT_EQ(column.name, wanted.at("name"));
-  EXPECT_EQ(column.unit, wanted.at("unit")) << column.name;
+  EXPECT_EQ(column.name, wanted.at("name").get<std::string>());
+  EXPECT_EQ(column.unit, wanted.at("unit").get<std::string>()) << column.name;
   EXPECT_EQ(column.clock, wanted.at("clock")) << column.name;
   const json& numbers = wanted.at("values");
   ASSERT_EQ(values.size(), numbers.size()) << column.name;
@@ -63,12 +63,12 @@ TEST_P(Corpus, ComesOutAsItWentIn) {
     return;
   }
   ASSERT_TRUE(done) << done.error().message();
-  EXPECT_EQ((*reader_of(file))->id, wanted.at("reader"));
+  EXPECT_EQ((*reader_of(file))->id, wanted.at("reader").get<std::string>());
   const json& tables = wanted.at("tables");
   ASSERT_EQ(sink.tables.size(), tables.size()) << sink.notes;
   for (std::size_t t = 0; t < tables.size(); ++t) {
     const ToldTable& table = sink.tables[t];
-    EXPECT_EQ(table.head.path, tables[t].at("path"));
+    EXPECT_EQ(table.head.path, tables[t].at("path").get<std::string>());
     const json& columns = tables[t].at("columns");
     ASSERT_EQ(table.columns.size(), columns.size()) << sink.notes;
     for (std::size_t c = 0; c < columns.size(); ++c) {

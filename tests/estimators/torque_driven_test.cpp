@@ -52,8 +52,8 @@ TorsionRecord record(double speed, double amplitude, double frequency, double no
   }
   TorsionRecord one = found->second;
   std::mt19937_64 engine(7);
-  std::normal_distribution<double> normal(0.0, noise * kMotion);
-  for (double& x : one.motion) x += normal(engine);
+  std::normal_distribution<double> normal;
+  for (double& x : one.motion) x += noise * kMotion * normal(engine);
   return one;
 }
 

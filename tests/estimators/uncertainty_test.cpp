@@ -125,5 +125,11 @@ TEST(ScaledCondition, OfTwoColumnsAtAnAngle) {
   }
 }
 
+TEST(ScaledCondition, OfFewerRowsThanColumnsIsInfinite) {
+  EXPECT_DOUBLE_EQ(scaled_condition(Eigen::MatrixXd::Identity(2, 3)), 1.0)
+      << "a column of zeros is left out";
+  EXPECT_TRUE(std::isinf(scaled_condition(Eigen::MatrixXd::Ones(2, 3))));
+}
+
 }  // namespace
 }  // namespace flexspline::estimators

@@ -168,21 +168,6 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   EXPECT_EQ(left_unnamed(Selection{}, limits), nullptr);
 }
 
-TEST(Explanation, WhatStandsOutIsLeftWhereNothingIsNamed) {
-  const Limits limits;
-  const auto out = [&](double statistic, double share, bool beside_a_cause = false) {
-    Selection s = selection_with({}, {Equation::torsion, "motor_angle", statistic, share, ""});
-    if (!beside_a_cause) s.accepted.clear();
-    return stands_out(s, limits);
-  };
-  const double statistic = 2.0 * limits.doubtless;
-  const double share = 1.4 * limits.doubtless_share;
-  EXPECT_TRUE(out(statistic, share));
-  EXPECT_FALSE(out(0.3 * statistic, share)) << "not sure enough for so little";
-  EXPECT_FALSE(out(statistic, 0.5 * share)) << "next to nothing";
-  EXPECT_FALSE(out(statistic, share, true)) << "it may be a form's error";
-}
-
 TEST(Explanation, ACauseStandsAloneWhereItClearsWhatItsCoordinateOrdered) {
   const Limits limits;
   const CoordinateScore strong{Equation::torsion, "reversal_memory", 10.0 * limits.remainder,
