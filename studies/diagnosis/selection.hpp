@@ -12,17 +12,17 @@ namespace flexspline::studies {
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
 /// from: docs/diagnosis.md.
 struct Limits {
-  double net_gain = 18.0;         ///< least net gain of a cause
-  double named_gain = 80.0;       ///< least net gain of a cause that is named
-  double size = 0.008;            ///< least size of a cause, share of the largest torque
-  double taken_up = 0.5;          ///< larger columns are taken up by the baseline, not seen
-  double alike = 0.9;             ///< gain of a rival over the best that makes it an alternative
-  double remainder = 24.0;        ///< statistic of a coordinate that says something is left
-  double remainder_share = 0.1;   ///< and the share of the residual it has to order
-  double shadow = 0.03;           ///< gain over that of a larger cause of the same equation
-  double twin_shadow = 0.1;       ///< the same over that of one that could stand for it
-  double beyond_form = 0.4;  ///< share of that gain that no error in the larger's form explains
-  double apart = 120.0;      ///< gain in a shadow that needs nothing to be left without it,
+  double net_gain = 18.0;        ///< least net gain of a cause
+  double named_gain = 80.0;      ///< least net gain of a cause that is named
+  double size = 0.008;           ///< least size of a cause, share of the largest torque
+  double taken_up = 0.5;         ///< larger columns are taken up by the baseline, not seen
+  double alike = 0.9;            ///< gain of a rival over the best that makes it an alternative
+  double remainder = 24.0;       ///< statistic of a coordinate that says something is left
+  double remainder_share = 0.1;  ///< and the share of the residual it has to order
+  double shadow = 0.03;          ///< gain over that of a larger cause of the same equation
+  double twin_shadow = 0.1;      ///< the same over that of one that could stand for it
+  double beyond_form = 0.4;      ///< share of that gain that no error in the larger's form explains
+  double apart = 120.0;          ///< gain in a shadow that needs nothing to be left without it,
   double apart_from_form = 0.55;  ///< with this share
   double main = 0.95;       ///< share of it that the main ones of too many causes have to remove
   double explained = 0.75;  ///< share of the misfit that the causes have to remove
