@@ -105,7 +105,7 @@ TEST(DisturbedServo, AnOffsetBesideItKeepsItsName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, Disturbed, testing::Values(Rig::locked, Rig::free, Rig::specimen),
-                         [](const auto& info) { return std::string(name_of(info.param)); });
+                         [](const auto& rig) { return std::string(name_of(rig.param)); });
 
 }  // namespace
 }  // namespace flexspline::studies

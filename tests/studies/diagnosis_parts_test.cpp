@@ -209,7 +209,9 @@ TEST(Locate, AProductOfPositionAndSpeedIsFoundThoughNeitherOrdersIt) {
   for (const CoordinateScore& score : scores) {
     const bool one_of_both =
         score.says.ends_with("the torsion") || score.says.ends_with("the speed");
-    if (one_of_both) EXPECT_LT(score.statistic, 0.25 * scores.front().statistic) << score.says;
+    if (one_of_both) {
+      EXPECT_LT(score.statistic, 0.25 * scores.front().statistic) << score.says;
+    }
   }
 }
 

@@ -68,7 +68,7 @@ Selection undecided(const Known& known, const CauseRow& row, const CauseForm& fo
   best.fit.model = with_cause(known.frame, known.findings, row, form, kSmall);
   Trial other = best;
   other.fit.model = known.findings.fit.model;
-  s.accepted.push_back({.trial = best, .rivals = {other}});
+  s.accepted.push_back({.trial = best, .rivals = {other}, .field = {}});
   return s;
 }
 

@@ -341,7 +341,9 @@ class SpoiltInputs {
     const std::vector<int> allowed = {0, 1, 2, 65, 66, 73};
     const bool done = std::ranges::find(allowed, ended.code) != allowed.end();
     EXPECT_TRUE(done || (ended.stopped && ended.code == 75)) << ended.code;
-    if (ended.stopped) EXPECT_LT(ended.stopping, 4.0);
+    if (ended.stopped) {
+      EXPECT_LT(ended.stopping, 4.0);
+    }
     EXPECT_EQ(ended.said.find("runtime error"), std::string::npos);
     EXPECT_EQ(ended.said.find("Sanitizer"), std::string::npos);
     EXPECT_EQ(ended.said.find("json.exception"), std::string::npos) << "a library's words";
