@@ -4,8 +4,9 @@
 #include <openssl/evp.h>
 
 #include <array>
-
-#include "flexspline/core/error.hpp"
+#include <filesystem>
+#include <fstream>
+#include <vector>
 
 namespace flexspline::data {
 
@@ -29,6 +30,25 @@ Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 void Sha256::add(std::string_view bytes) {
   expects(EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()) == 1,
           "a checksum is still open when bytes are added");
+}
+
+Result<void> Sha256::add_file(const std::filesystem::path& file) {
+  const auto not_read = [&](const std::string& why) {
+    return failure(ErrorCode::input_missing, "cannot read " + file.string() + why,
+                   "check the path and its permissions");
+  };
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown)) {
+    return not_read(": it is no regular file");
+  }
+  std::vector<char> piece(std::size_t{1} << 20U);
+  std::ifstream stream(file, std::ios::binary);
+  while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) ||
+         stream.gcount() > 0) {
+    add({piece.data(), static_cast<std::size_t>(stream.gcount())});
+  }
+  if (stream.bad() || !stream.eof()) return not_read("");
+  return {};
 }
 
 std::string Sha256::hex() {

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "flexspline/core/write_file.hpp"
 #include "flexspline/data/artefact.hpp"
 #include "flexspline/data/checksum.hpp"
 
@@ -15,7 +14,8 @@ using nlohmann::ordered_json;
 constexpr std::string_view kSchema = "flexspline-manifest/1";
 
 Result<std::string> checksum_of(const fs::path& file) {
-  return read_file(file).transform([](const std::string& text) { return sha256_hex(text); });
+  Sha256 sum;
+  return sum.add_file(file).transform([&] { return sum.hex(); });
 }
 
 std::vector<fs::path> files_under(const fs::path& path) {

@@ -47,6 +47,23 @@ TEST(Checksum, IsThatOfFips180) {
   EXPECT_EQ(pieces.hex(), sha256_hex("abc"));
 }
 
+// A recording may be larger than any text that is read whole.
+TEST_F(Artefact, AChecksumIsOfAFileOfAnySize) {
+  constexpr std::size_t kBytes = (std::size_t{1} << 30U) + 1;
+  put("large.csv", "");
+  std::filesystem::resize_file(folder_ / "large.csv", kBytes);
+  Sha256 of_file;
+  ASSERT_TRUE(of_file.add_file(folder_ / "large.csv"));
+  Sha256 of_zeros;
+  const std::string zeros(std::size_t{1} << 20U, '\0');
+  for (std::size_t k = 0; k < 1024; ++k) of_zeros.add(zeros);
+  of_zeros.add({zeros.data(), 1});
+  EXPECT_EQ(of_file.hex(), of_zeros.hex());
+  Sha256 other;
+  EXPECT_THAT(other.add_file("/dev/zero").error().problem, HasSubstr("no regular file"));
+  EXPECT_THAT(other.add_file(folder_ / "none.csv").error().problem, HasSubstr("none.csv"));
+}
+
 TEST_F(Artefact, ReadsBackWithSchemaFirstAndChecksumLast) {
   const std::string text = written();
   EXPECT_THAT(text, testing::StartsWith(R"({"schema":"flexspline-case/1",)"));

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -57,16 +56,8 @@ void print_plan(const data::ImportPlan& plan, Console& console) {
 /// Of every file, by its content: the same files under other names are the same input.
 Result<std::string> sha256_of(const std::vector<fs::path>& files) {
   data::Sha256 sum;
-  std::vector<char> piece(std::size_t{1} << 20U);
   for (const fs::path& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) ||
-           stream.gcount() > 0) {
-      sum.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
-    }
-    if (stream.bad() || !stream.eof()) {
-      return failure(ErrorCode::input_missing, "cannot read " + file.string());
-    }
+    if (auto added = sum.add_file(file); !added) return tl::unexpected(added.error());
   }
   return sum.hex();
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include "flexspline/core/error.hpp"
 
 namespace flexspline::data {
 
@@ -15,6 +18,9 @@ class Sha256 {
   Sha256& operator=(Sha256&&) noexcept;
 
   void add(std::string_view bytes);
+  /// The content of a regular file of any size, a mebibyte at a time. Error: input_missing where it
+  /// cannot be read.
+  Result<void> add_file(const std::filesystem::path& file);
   /// 64 lower-case hexadecimal digits. Ends the computation: nothing may be added afterwards.
   std::string hex();
 
