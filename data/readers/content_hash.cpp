@@ -1,8 +1,10 @@
 #include "flexspline/data/dataset.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "flexspline/data/checksum.hpp"
 #include "flexspline/data/sanity_codes.hpp"
@@ -39,15 +41,24 @@ void add_number(Sha256& sum, const std::optional<double>& value) {
   if (value) add_number(sum, *value);
 }
 
-void add_series(Sha256& sum, Quantity quantity, const std::vector<double>& values) {
-  add_text(sum, name_of(quantity));
-  std::vector<std::uint64_t> words(values.size());
-  std::ranges::transform(values, words.begin(), rounded);
-  add_word(sum, words.size());
+void add_words(Sha256& sum, std::span<const std::uint64_t> words) {
   if constexpr (std::endian::native == std::endian::little) {
-    sum.add({reinterpret_cast<const char*>(words.data()), 8 * words.size()});
+    sum.add({reinterpret_cast<const char*>(words.data()), words.size_bytes()});
   } else {
     for (const std::uint64_t word : words) add_word(sum, word);
+  }
+}
+
+// In pieces: a series may be nearly as large as memory.
+void add_series(Sha256& sum, Quantity quantity, std::span<const double> values) {
+  add_text(sum, name_of(quantity));
+  add_word(sum, values.size());
+  std::array<std::uint64_t, 4096> words{};
+  while (!values.empty()) {
+    const auto piece = values.first(std::min(values.size(), words.size()));
+    std::ranges::transform(piece, words.begin(), rounded);
+    add_words(sum, std::span(words).first(piece.size()));
+    values = values.subspan(piece.size());
   }
 }
 

@@ -147,15 +147,6 @@ const std::vector<double>* held_motion(const RecordingSet& set, const Recording&
   return nullptr;
 }
 
-std::vector<std::size_t> valid_samples(const Recording& recording) {
-  const Series* valid = recording.find(Quantity::valid);
-  std::vector<std::size_t> list;
-  for (std::size_t i = 0; i < recording.time.size(); ++i) {
-    if (valid == nullptr || (*valid)[i] > 0.5) list.push_back(i);
-  }
-  return list;
-}
-
 double range_of(std::span<const double> values) {
   const auto [low, high] = std::ranges::minmax_element(values);
   return values.empty() ? 0.0 : *high - *low;

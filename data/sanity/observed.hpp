@@ -45,9 +45,6 @@ bool is_position(Quantity quantity);
 /// The channel that the rig's position loop moves: the motor's, the load's or the specimen's.
 const std::vector<double>* held_motion(const RecordingSet& set, const Recording& recording);
 
-/// Samples that the bench did not mark as spoiled, by index.
-std::vector<std::size_t> valid_samples(const Recording& recording);
-
 double range_of(std::span<const double> values);
 double range_of(const Eigen::ArrayXd& values);
 double median_of(std::vector<double> values);

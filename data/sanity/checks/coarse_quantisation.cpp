@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -16,11 +16,14 @@ constexpr double kFewest = 24.0;            // steps over the range
 constexpr std::size_t kLeastSamples = 200;  // fewer may take few values by chance
 constexpr double kRepeated = 4.0;           // samples a value
 
-/// Number of values that a channel takes.
-std::size_t values_taken(std::vector<double> values) {
-  std::ranges::sort(values);
-  const auto rest = std::ranges::unique(values);
-  return values.size() - rest.size();
+/// Number of values that a channel takes; beyond the fewest it is not counted on.
+double values_taken(const std::vector<double>& values) {
+  std::set<double> taken;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;  // a dropout
+    if (taken.insert(value).second && static_cast<double>(taken.size()) > kFewest) break;
+  }
+  return static_cast<double>(taken.size());
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
@@ -31,7 +34,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
       if (values == nullptr || values->size() < kLeastSamples || !(range_of(*values) > 0.0)) {
         continue;
       }
-      const auto taken = static_cast<double>(values_taken(*values));
+      const double taken = values_taken(*values);
       if (taken > kFewest || taken * kRepeated > static_cast<double>(values->size())) continue;
       list.push_back(
           kCoarse.on(recording.id,

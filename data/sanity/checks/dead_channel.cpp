@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,8 +13,14 @@ constexpr SanityVerdict kDead{
 
 /// The value of a channel that is the same wherever the bench did not mark a sample as spoiled.
 bool is_dead(const Recording& recording, const std::vector<double>& values) {
-  const auto valid = valid_samples(recording);
-  return std::ranges::all_of(valid, [&](std::size_t i) { return values[i] == values[valid[0]]; });
+  const auto* valid = recording.find(Quantity::valid);
+  std::optional<double> first;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (valid != nullptr && !((*valid)[i] > 0.5)) continue;
+    if (!first) first = values[i];
+    if (values[i] != *first) return false;
+  }
+  return true;
 }
 
 std::vector<SanityFinding> find(const ObservedSet& all) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -25,31 +26,34 @@ struct Run {
   std::size_t count = 0;
 };
 
-std::vector<Run> runs_of(const Series& values) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (runs.empty() || values[i] != values[runs.back().first]) runs.push_back({i, 0});
-    ++runs.back().count;
-  }
-  return runs;
-}
-
 /// The longest run, and how long others usually are: what quantisation makes.
 struct Longest {
   Run run;
   std::size_t usual = 1;
 };
 
-Longest longest_of(const std::vector<Run>& runs) {
-  Longest longest{*std::ranges::max_element(runs, {}, &Run::count), 1};
-  std::vector<std::size_t> others;
-  for (const Run& run : runs) {
-    if (run.first != longest.run.first) others.push_back(run.count);
+// Runs are counted by their length: of noise there are as many as samples.
+Longest longest_of(const Series& values) {
+  Longest longest;
+  std::map<std::size_t, std::size_t> runs_of_length;
+  for (std::size_t first = 0; first < values.size();) {
+    std::size_t next = first + 1;
+    while (next < values.size() && values[next] == values[first]) ++next;
+    const Run run{first, next - first};
+    if (run.count > longest.run.count) longest.run = run;
+    ++runs_of_length[run.count];
+    first = next;
   }
-  if (others.empty()) return longest;
-  const auto usual = others.begin() + static_cast<std::ptrdiff_t>(others.size() * 9 / 10);
-  std::ranges::nth_element(others, usual);
-  longest.usual = *usual;
+  --runs_of_length[longest.run.count];
+  std::size_t others = 0;
+  for (const auto& [length, runs] : runs_of_length) others += runs;
+  std::size_t shorter = 0;
+  for (const auto& [length, runs] : runs_of_length) {
+    shorter += runs;
+    if (shorter <= others * 9 / 10) continue;
+    longest.usual = length;
+    break;
+  }
   return longest;
 }
 
@@ -61,7 +65,7 @@ bool jumps_after(const Series& values, const Run& run) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i] != values[i - 1]) steps.push_back(std::abs(values[i] - values[i - 1]));
   }
-  return std::abs(values[next] - values[run.first]) > kJump * median_of(steps);
+  return std::abs(values[next] - values[run.first]) > kJump * median_of(std::move(steps));
 }
 
 // A channel that turns at every other sample outside the run has noise, which never stands still.
@@ -105,7 +109,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
     for (const Quantity quantity : sensed_channels(all.set)) {
       const Series* values = recording.find(quantity);
       if (values == nullptr || values->size() < kLeastRun) continue;
-      const Longest longest = longest_of(runs_of(*values));
+      const Longest longest = longest_of(*values);
       const Run& run = longest.run;
       if (!is_long(longest, values->size()) || is_marked(recording, run)) continue;
       const double moved = partner_moves(all, recording, quantity, run);
