@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "dataset_fixture.hpp"
 #include "flexspline/data/dataset.hpp"
 
@@ -36,6 +39,29 @@ TEST_F(ThinRecordings, KeepEveryKthRowAndSaySo) {
   ASSERT_EQ(set->notes.size(), 1U);
   EXPECT_EQ(set->notes[0],
             "recording a: every 3rd of 45001 rows is used; --rows all uses them all");
+}
+
+// 4000 cycles of 50 rows: every tenth row would leave five of each.
+TEST_F(ThinRecordings, FollowAFastMotionForAPartOfItsTime) {
+  constexpr std::size_t kAll = 200'000;
+  RecordingSet set;
+  Recording fast;
+  fast.id = "fast";
+  std::vector<double> torsion, torque;
+  for (std::size_t i = 0; i < kAll; ++i) {
+    fast.time.push_back(1e-3 * static_cast<double>(i));
+    torsion.push_back(std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 50.0));
+    torque.push_back(static_cast<double>(i));
+  }
+  fast.channels = {{Quantity::torsion, torsion}, {Quantity::transmitted_torque, torque}};
+  set.recordings = {fast};
+  thin_recordings(set, 20'000);
+  const Recording& thinned = set.recordings[0];
+  EXPECT_EQ(thinned.time.size(), 20'000U);
+  EXPECT_EQ(thinned.channels.at(Quantity::transmitted_torque)[1], 2.0) << "25 rows a cycle";
+  EXPECT_EQ(set.notes[0],
+            "recording fast: every 2nd of the first 40000 of 200000 rows is used: fewer would not "
+            "follow the motion; --rows all uses them all");
 }
 
 TEST_F(ThinRecordings, AreWholeWhereAllRowsAreAskedFor) {

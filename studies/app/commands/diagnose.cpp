@@ -68,8 +68,8 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
                                             .nested = !arguments.has("quick"),
                                             .interest = *interest});
   if (!diagnosis) return tl::unexpected(as_reported(diagnosis.error()));
-  console.say(
-      fmt::format("{} recordings, {:.1f} s", recordings->recordings.size(), diagnosis->seconds));
+  console.say(fmt::format("{} recording{}, {:.1f} s", recordings->recordings.size(),
+                          recordings->recordings.size() == 1 ? "" : "s", diagnosis->seconds));
   const auto page = write_diagnosis(*diagnosis, arguments.text("out"));
   if (!page) return tl::unexpected(page.error());
   std::vector<std::string> files = {"diagnosis.json", "index.html", "summary.html", "report",

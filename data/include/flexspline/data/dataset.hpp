@@ -39,8 +39,10 @@ inline constexpr std::size_t kMostRows = 20000;
 inline constexpr std::size_t kAllRows = 0;
 
 /// Every k-th row of recordings that have more than `most`, with a note for each in the set and its
-/// checksum that of what is left. Samples stay as they were measured: nothing is filtered, so noise
-/// stays white and reversals sharp; what is faster than half of the new rate is aliased.
+/// checksum that of what is left. Where that would leave fewer than ten rows between two crossings
+/// of a motion's middle, k is smaller and the end of the recording is left out. Samples stay as
+/// they were measured: nothing is filtered, so noise stays white and reversals sharp; what is
+/// faster than half of the new rate is aliased.
 void thin_recordings(RecordingSet& set, std::size_t most);
 
 /// A data set for callers that go no further on a failure, thinned to a most of rows a recording
