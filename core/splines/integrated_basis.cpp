@@ -37,6 +37,7 @@ IntegratedBasis::IntegratedBasis(std::span<const double> interior_knots) {
   knots.insert(knots.end(), 2, 1.0);
 
   table_.resize(size_ * intervals_);
+  starts_.resize(size_ * intervals_);
   for (std::size_t i = 0; i < size_; ++i) {
     double integral = 0.0;
     for (std::size_t j = 0; j < intervals_; ++j) {
@@ -50,6 +51,7 @@ IntegratedBasis::IntegratedBasis(std::span<const double> interior_knots) {
       const double first = (y3 - y1) / (0.5 * width) - second * width;
       const double at_left = y2 - first * 0.5 * width - second * 0.25 * width * width;
       table_[i * intervals_ + j] = {at_left, first, second, integral};
+      starts_[j * size_ + i] = integral;
       integral += width * (at_left + width * (first / 2.0 + width * second / 3.0));
     }
   }
@@ -65,9 +67,11 @@ void IntegratedBasis::values(double u, std::span<double> out) const {
   const std::size_t j = interval(u);
   const double inside = std::min(u, 1.0);
   const double d = inside - breakpoints_[j];
-  for (std::size_t i = 0; i < size_; ++i) {
+  const double* start = &starts_[j * size_];
+  for (std::size_t i = 0; i < size_; ++i) out[i] = start[i];
+  for (std::size_t i = j; i < j + kActive; ++i) {
     const Quadratic& q = piece(i, j);
-    out[i] = q.start + d * (q.q0 + d * (q.q1 / 2.0 + d * q.q2 / 3.0));
+    out[i] += d * (q.q0 + d * (q.q1 / 2.0 + d * q.q2 / 3.0));
     if (u > 1.0) out[i] += (u - 1.0) * (q.q0 + d * (q.q1 + d * q.q2));
   }
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kDifference = 1e-4;  // of a shape's range
 constexpr double kMostDamping = 1e7;
+constexpr double kLeastDamping = 1e-6;
 
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
@@ -199,24 +200,55 @@ std::vector<double> stepped(const SeparableProblem& problem, const std::vector<d
   return to;
 }
 
-// Marquardt's damping: raised until the sum of squares falls. False where it no longer does.
+// The shapes that may move: not those on a bound that the gradient presses them against.
+std::vector<Eigen::Index> movable(const SeparableProblem& problem, const std::vector<double>& q,
+                                  const Eigen::VectorXd& gradient) {
+  std::vector<Eigen::Index> list;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const ShapeBound& bound = problem.shapes[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const bool held = bound.lower == bound.upper || (q[i] <= bound.lower && gradient[k] > 0.0) ||
+                      (q[i] >= bound.upper && gradient[k] < 0.0);
+    if (!held) list.push_back(k);
+  }
+  return list;
+}
+
+Eigen::VectorXd difference(const std::vector<double>& to, const std::vector<double>& from) {
+  const auto n = static_cast<Eigen::Index>(to.size());
+  return Eigen::Map<const Eigen::VectorXd>(to.data(), n) -
+         Eigen::Map<const Eigen::VectorXd>(from.data(), n);
+}
+
+// Marquardt's damping, raised ever faster until the sum of squares falls. False where it no longer
+// does, or where the Jacobian, whose gradient is exact, promises no fall worth a step.
 bool improve(const SeparableProblem& problem, Point& point, double& damping, double smallest_gain) {
   SeparableFit& fit = point.fit;
   const Eigen::MatrixXd j = jacobian(problem, point, fit.evaluations);
   const Eigen::MatrixXd hessian = j.transpose() * j;
   const Eigen::VectorXd gradient = j.transpose() * stacked(fit.residual);
   const Eigen::VectorXd diagonal = hessian.diagonal().cwiseMax(1e-12 * hessian.trace() + 1e-300);
-  for (; damping < kMostDamping; damping *= 10.0) {
+  const auto free = movable(problem, fit.q, gradient);
+  if (free.empty()) return false;
+  for (double faster = 10.0; damping < kMostDamping; damping *= faster, faster *= 2.0) {
     Eigen::MatrixXd damped = hessian;
     damped.diagonal() += damping * diagonal;
-    const auto q = stepped(problem, fit.q, -damped.ldlt().solve(gradient));
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(gradient.size());
+    wanted(free) = -damped(free, free).eval().ldlt().solve(gradient(free));
+    const auto q = stepped(problem, fit.q, wanted);
+    const Eigen::VectorXd step = difference(q, fit.q);
+    const double promised = -step.dot(2.0 * gradient + hessian * step);
+    if (!(promised > smallest_gain * fit.sum_of_squares)) {
+      if (step == wanted) return false;
+      continue;
+    }
     Point trial = point_at(problem, q);
     trial.fit.evaluations = ++fit.evaluations;
     if (!(trial.fit.sum_of_squares < fit.sum_of_squares)) continue;
     const bool worthwhile =
         fit.sum_of_squares - trial.fit.sum_of_squares > smallest_gain * fit.sum_of_squares;
     point = std::move(trial);
-    damping = std::max(damping / 10.0, 1e-9);
+    damping = std::max(damping / 10.0, kLeastDamping);
     return worthwhile;
   }
   return false;

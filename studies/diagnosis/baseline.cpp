@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "diagnosis/cause.hpp"
 #include "diagnosis/low_pass.hpp"
 #include "flexspline/core/cubic_basis.hpp"
 #include "flexspline/core/integrated_basis.hpp"
@@ -73,28 +74,26 @@ Eigen::VectorXd heights(const IntegratedBasis& basis) {
 
 // f = sum_i c_i I_i(x); of a firm spring sum_i c_i (I_i(x) + e I_i(1) x), whose slope with c_i >= 0
 // is nowhere below e/(1 + e) of its mean.
-MatrixXd elastic_columns(const Frame& frame, const ArrayXd& x) {
-  const IntegratedBasis basis(even_knots(kElasticKnots));
-  MatrixXd columns(x.size(), static_cast<Index>(basis.size()));
-  odd_columns(basis, x, columns);
-  if (!frame.firm_spring) return columns;
+void elastic_columns(const Frame& frame, const IntegratedBasis& basis, const ArrayXd& x,
+                     Eigen::Ref<MatrixXd> out) {
+  odd_columns(basis, x, out);
+  if (!frame.firm_spring) return;
   const Eigen::VectorXd whole = heights(basis);
   for (Index k = 0; k < whole.size(); ++k) {
-    columns.col(k) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
+    out.col(k) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
   }
-  return columns;
 }
 
 BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) {
-  const MatrixXd elastic = elastic_columns(frame, wound(frame, shape));
+  const IntegratedBasis elastic(even_knots(kElasticKnots));
   const IntegratedBasis dissipative(rate_knots(frame));
   const bool offset = frame.rig == Rig::specimen;
-  const Index f = elastic.cols();
+  const Index f = static_cast<Index>(elastic.size());
   const Index g = static_cast<Index>(dissipative.size());
   BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
                     Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g, Eigen::VectorXd(f + g)};
-  c.height << heights(IntegratedBasis(even_knots(kElasticKnots))), heights(dissipative);
-  c.columns.leftCols(f) = elastic;
+  c.height << heights(elastic), heights(dissipative);
+  elastic_columns(frame, elastic, wound(frame, shape), c.columns.leftCols(f));
   odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
               c.columns.middleCols(f, g));
   if (offset) {
@@ -119,7 +118,7 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
     }
   }
   for (std::size_t k = 0; k < widths.size(); ++k) {
-    c.columns.col(f + static_cast<Index>(k)) = (frame.torsion_rate / widths[k]).tanh();
+    c.columns.col(f + static_cast<Index>(k)) = rounded_sign(frame.torsion_rate, widths[k]);
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   return c;
@@ -134,7 +133,7 @@ BaselineColumns motor_columns(const Frame& frame) {
   c.columns.col(0) = frame.motor_speed;
   const auto widths = dry_widths(frame);
   for (Index k = 0; k < n; ++k) {
-    c.columns.col(1 + k) = (frame.motor_speed / widths[static_cast<std::size_t>(k)]).tanh();
+    c.columns.col(1 + k) = rounded_sign(frame.motor_speed, widths[static_cast<std::size_t>(k)]);
   }
   if (load > 0) {
     c.columns.col(1 + n) = frame.gravity;

@@ -33,17 +33,16 @@ Columns of_torque_signal(Equation equation, const Frame& frame, Columns terms) {
 
 Columns stop_operators(const Frame& frame, const ArrayXd& motion,
                        const std::vector<double>& yields) {
-  Columns columns;
-  for (double yield : yields) {
-    ArrayXd column(frame.rows());
-    for (const Segment& s : frame.segments) {
-      StopOperator stop(yield);
-      column[s.first] = 0.0;
-      for (Index r = s.first + 1; r < s.first + s.count; ++r) {
-        column[r] = stop.advance(motion[r] - motion[r - 1]);
-      }
+  Columns columns(yields.size());
+  for (ArrayXd& column : columns) column.resize(frame.rows());
+  for (const Segment& s : frame.segments) {
+    // Side by side: each waits for its own last row, not for another's.
+    std::vector<StopOperator> stops(yields.begin(), yields.end());
+    for (ArrayXd& column : columns) column[s.first] = 0.0;
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+      const double step = motion[r] - motion[r - 1];
+      for (std::size_t k = 0; k < stops.size(); ++k) columns[k][r] = stops[k].advance(step);
     }
-    columns.push_back(std::move(column));
   }
   return columns;
 }

@@ -9,15 +9,22 @@ namespace flexspline::studies {
 using Eigen::Index;
 
 namespace {
-constexpr Index kTogether = 8;  // columns: each waits for its own last row, not for another's
-}
+constexpr Index kTogether = 8;       // columns: each waits for its own last row, not for another's
+constexpr double kSameStep = 1e-12;  // of itself: steps that differ by the rounding of times
+}  // namespace
 
 LowPass::LowPass(const Frame& frame, double time_constant)
     : segments_(frame.segments), now_(frame.rows()), before_(frame.rows()), kept_(frame.rows()) {
   for (const Segment& s : segments_) {
     now_[s.first] = 1.0, before_[s.first] = 0.0, kept_[s.first] = 0.0;
+    double known = 0.0;
     for (Index r = s.first + 1; r < s.first + s.count; ++r) {
       const double step = (frame.time[r] - frame.time[r - 1]) / time_constant;
+      if (std::abs(step - known) <= kSameStep * step) {
+        now_[r] = now_[r - 1], before_[r] = before_[r - 1], kept_[r] = kept_[r - 1];
+        continue;
+      }
+      known = step;
       const double settled = -std::expm1(-step);
       const double mean = settled / step;
       now_[r] = 1.0 - mean;

@@ -5,171 +5,13 @@
 #include <limits>
 #include <set>
 
-#include "diagnosis/model_columns.hpp"
+#include "diagnosis/model_problem.hpp"
 
 namespace flexspline::studies {
 namespace {
 
 using Eigen::ArrayXd;
 using Eigen::Index;
-using estimators::SeparableBlock;
-using estimators::ShapeBound;
-
-// Of the torsion, over its range. Beside an offset of the torque a zero is nearly the same, and
-// what is left to tell them apart are the spring's bends.
-constexpr double kMostZeroError = 0.3;
-constexpr double kMostBesideOffset = 0.1;
-constexpr double kSmallestGain = 1e-5;  // of the sum of squares: a tenth in chi square of 10^4 rows
-constexpr double kFree = -std::numeric_limits<double>::infinity();
-
-// Searched in the logarithm where a shape is.
-double inner(const Shape& shape, double value) {
-  return shape.logarithmic ? std::log(value) : value;
-}
-double outer(const Shape& shape, double value) {
-  return shape.logarithmic ? std::exp(value) : value;
-}
-
-std::vector<Shape> shapes_of(const ActiveCause& cause, const Frame& frame) {
-  return cause.form->shapes == nullptr ? std::vector<Shape>{} : cause.form->shapes(frame);
-}
-
-/// Where every number of a model stands among the shapes q and the linear parameters b.
-class Layout {
- public:
-  Layout(const Frame& frame, std::vector<Equation> equations, const DriveModel& model)
-      : frame_(frame), equations_(std::move(equations)), model_(model) {
-    for (const ActiveCause& cause : model.causes) shapes_.push_back(shapes_of(cause, frame));
-  }
-
-  std::vector<double> shapes_start() const {
-    std::vector<double> q;
-    if (fits(Equation::torsion)) q = model_.torsion_shape;
-    for (std::size_t c = 0; c < model_.causes.size(); ++c) {
-      for (std::size_t s = 0; s < shapes_[c].size(); ++s) {
-        q.push_back(inner(shapes_[c][s], model_.causes[c].shape[s]));
-      }
-    }
-    return q;
-  }
-
-  std::vector<ShapeBound> bounds() const {
-    std::vector<ShapeBound> list;
-    const auto q = shapes_start();
-    const auto add = [&](double lower, double upper) {
-      list.push_back({q[list.size()], lower, upper});
-    };
-    if (fits(Equation::torsion) && frame_.travels) {
-      add(std::log(1e-4 * frame_.rate_range), std::log(0.3 * frame_.rate_range));
-    } else if (fits(Equation::torsion)) {
-      const double zero = frame_.rig == Rig::specimen ? kMostBesideOffset : kMostZeroError;
-      add(-2.0, 2.0), add(-2.0, 2.0), add(-zero, zero);
-    }
-    for (const auto& shapes : shapes_) {
-      for (const Shape& s : shapes) {
-        if (s.discrete) {
-          add(q[list.size()], q[list.size()]);
-        } else {
-          add(inner(s, s.lower), inner(s, s.upper));
-        }
-      }
-    }
-    return list;
-  }
-
-  /// The model with these shapes.
-  DriveModel at(std::span<const double> q) const {
-    DriveModel model = model_;
-    std::size_t next = 0;
-    if (fits(Equation::torsion)) {
-      for (double& value : model.torsion_shape) value = q[next++];
-    }
-    for (std::size_t c = 0; c < model.causes.size(); ++c) {
-      for (std::size_t s = 0; s < shapes_[c].size(); ++s) {
-        model.causes[c].shape[s] = outer(shapes_[c][s], q[next++]);
-      }
-    }
-    return model;
-  }
-
-  bool fits(Equation equation) const { return std::ranges::count(equations_, equation) > 0; }
-  const std::vector<Equation>& equations() const { return equations_; }
-
- private:
-  const Frame& frame_;
-  std::vector<Equation> equations_;
-  const DriveModel& model_;
-  std::vector<std::vector<Shape>> shapes_;
-};
-
-/// Linear parameters: the baseline's by equation, then the causes'.
-struct LinearLayout {
-  std::vector<Index> own_at, own_size, cause_at, cause_size;
-  Eigen::VectorXd lower;
-};
-
-LinearLayout linear_layout(ModelColumns& columns, const DriveModel& model,
-                           const std::vector<Equation>& equations,
-                           const std::vector<WeightedRows>& rows) {
-  LinearLayout layout;
-  std::vector<double> lower;
-  layout.cause_size.assign(model.causes.size(), 0);
-  for (std::size_t e = 0; e < equations.size(); ++e) {
-    const auto own = weighted_baseline(columns.seen(model), equations[e],
-                                       baseline_shape(model, equations[e]), rows[e]);
-    layout.own_at.push_back(static_cast<Index>(lower.size()));
-    layout.own_size.push_back(own->lower.size());
-    lower.insert(lower.end(), own->lower.begin(), own->lower.end());
-    const auto causes = columns.causes_at(model, equations[e]);
-    for (std::size_t k = 0; k < causes.size(); ++k) {
-      layout.cause_size[k] = std::max(layout.cause_size[k], static_cast<Index>(causes[k]->size()));
-    }
-  }
-  for (std::size_t k = 0; k < model.causes.size(); ++k) {
-    layout.cause_at.push_back(static_cast<Index>(lower.size()));
-    lower.insert(lower.end(), static_cast<std::size_t>(layout.cause_size[k]),
-                 model.causes[k].form->nonnegative ? 0.0 : kFree);
-  }
-  layout.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Index>(lower.size()));
-  return layout;
-}
-
-SeparableBlock weighted_block(ModelColumns& columns, const DriveModel& model, Equation equation,
-                              const WeightedRows& rows, const LinearLayout& layout, std::size_t e) {
-  SeparableBlock block;
-  block.shared =
-      weighted_baseline(columns.seen(model), equation, baseline_shape(model, equation), rows)
-          ->columns;
-  for (Index k = 0; k < layout.own_size[e]; ++k) block.index.push_back(layout.own_at[e] + k);
-  const auto causes = columns.causes_at(model, equation);
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
-      block.index.push_back(layout.cause_at[k] + static_cast<Index>(j));
-    }
-  }
-  block.columns.resize(rows.weight.size(),
-                       static_cast<Index>(block.index.size()) - layout.own_size[e]);
-  Index next = 0;
-  for (const auto& list : causes) {
-    for (const ArrayXd& column : *list) {
-      block.columns.col(next++) = (column(rows.at) * rows.weight).matrix();
-    }
-  }
-  block.target = (target_of(columns.seen(model), equation)(rows.at) * rows.weight).matrix();
-  return block;
-}
-
-void take_coefficients(DriveModel& model, const LinearLayout& layout, const Eigen::VectorXd& b,
-                       const std::vector<Equation>& equations) {
-  model.own.resize(3);
-  for (std::size_t e = 0; e < equations.size(); ++e) {
-    model.own[index_of(equations[e])] = b.segment(layout.own_at[e], layout.own_size[e]);
-  }
-  model.coefficients.clear();
-  for (std::size_t k = 0; k < model.causes.size(); ++k) {
-    model.coefficients.push_back(b.segment(layout.cause_at[k], layout.cause_size[k]));
-  }
-}
 
 int count_free(const Eigen::VectorXd& b, const Eigen::VectorXd& lower, std::size_t shapes) {
   int count = static_cast<int>(shapes);
@@ -226,33 +68,22 @@ DriveModel first_guess(const Frame& frame) {
 
 Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
                            const std::vector<Equation>& equations, const DriveModel& start,
-                           const Reference& reference, int most_steps) {
-  const Layout layout(frame, equations, start);
-  std::vector<WeightedRows> rows;
-  for (Equation equation : equations) rows.emplace_back(weight[index_of(equation)]);
+                           const Reference& reference, const Effort& effort) {
   ModelColumns columns(frame, reference);
-  const LinearLayout linear =
-      linear_layout(columns, layout.at(layout.shapes_start()), equations, rows);
+  const ModelProblem model(columns, frame, weight, equations, start);
   estimators::SeparableProblem problem;
-  problem.lower = linear.lower;
-  problem.shapes = layout.bounds();
-  problem.assemble = [&](std::span<const double> q) {
-    const DriveModel model = layout.at(q);
-    std::vector<SeparableBlock> blocks;
-    for (std::size_t e = 0; e < equations.size(); ++e) {
-      blocks.push_back(weighted_block(columns, model, equations[e], rows[e], linear, e));
-    }
-    return blocks;
-  };
-  const auto solved = estimators::fit_separable(problem, most_steps, kSmallestGain);
+  problem.lower = model.lower();
+  problem.shapes = model.shapes();
+  problem.assemble = [&](std::span<const double> q) { return model.assemble(q); };
+  const auto solved = estimators::fit_separable(problem, effort.most_steps, effort.smallest_gain);
   if (!solved) return tl::unexpected(solved.error());
   ModelFit fit;
-  fit.model = layout.at(solved->q);
-  take_coefficients(fit.model, linear, solved->b, equations);
+  fit.model = model.at(solved->q);
+  model.put_coefficients(solved->b, fit.model);
   for (std::size_t e = 0; e < equations.size(); ++e) {
     fit.sum_of_squares[index_of(equations[e])] = solved->residual[e].squaredNorm();
   }
-  fit.free_parameters = count_free(solved->b, linear.lower, solved->q.size());
+  fit.free_parameters = count_free(solved->b, problem.lower, solved->q.size());
   fit.evaluations = solved->evaluations;
   fill_residuals(frame, columns, equations, fit);
   return fit;

@@ -43,16 +43,22 @@ struct ModelFit {
   int evaluations = 0;
 };
 
+/// When a fit ends.
+struct Effort {
+  int most_steps = 0;           ///< of the shapes; 0: those given
+  double smallest_gain = 1e-5;  ///< of the sum of squares: a step that gains less is the last
+};
+
 /// The model before anything is known of the recordings.
 DriveModel first_guess(const Frame& frame);
 
-/// Fits baseline and causes to the rows with a weight: linear parameters exactly, shapes by at most
-/// that many steps (0: the shapes given). Equations that no cause links are independent of each
+/// Fits baseline and causes to the rows with a weight: linear parameters exactly, shapes by
+/// steps. Equations that no cause links are independent of each
 /// other; only those listed are fitted, the others of the result are empty.
 /// Errors: numerics, recordings with values out of range.
 Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
                            const std::vector<Equation>& equations, const DriveModel& start,
-                           const Reference& reference, int most_steps);
+                           const Reference& reference, const Effort& effort);
 
 /// The model's residuals on all rows of a frame, its parameters as they are.
 ModelFit evaluate(const Frame& frame, const DriveModel& model, const Reference& reference);

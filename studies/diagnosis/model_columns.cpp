@@ -53,7 +53,9 @@ std::shared_ptr<const Columns> ModelColumns::columns_of(const Frame& seen, const
   }
   if (built_.size() == kMostBuilt) built_.pop_back();
   Columns columns = cause.form->columns(equation, seen, reference_, cause.shape);
-  for (ArrayXd& column : columns) column = seen.recorded(column);
+  if (seen.torque_lag > 0.0) {
+    for (ArrayXd& column : columns) column = seen.recorded(column);
+  }
   built_.push_front(
       {cause.form, equation, cause.shape, std::make_shared<const Columns>(std::move(columns))});
   return built_.front().columns;

@@ -68,6 +68,9 @@ struct WeightedBaseline {
 struct WeightedRows {
   explicit WeightedRows(const Eigen::ArrayXd& all);
 
+  /// Those rows of a signal, weighted.
+  Eigen::VectorXd of(const Eigen::ArrayXd& signal) const;
+
   std::vector<Eigen::Index> at;  ///< those with a weight
   Eigen::ArrayXd weight;         ///< theirs
 };

@@ -1,11 +1,15 @@
 #include "diagnosis/nested_proof.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "diagnosis/folds.hpp"
 #include "diagnosis/spelled.hpp"
+#include "flexspline/core/in_parallel.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -13,15 +17,30 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-// Of a fold: its share of all, and which it is.
-DiagnosisProgress progress_of(const DiagnosisProgress& progress, std::size_t fold,
-                              std::size_t folds) {
-  if (!progress) return {};
-  return [&progress, fold, folds](double share, std::string_view stage) {
-    progress((static_cast<double>(fold) + share) / static_cast<double>(folds),
-             fmt::format("without fold {} of {}: {}", fold + 1, folds, stage));
-  };
-}
+/// How far folds that are searched side by side are together.
+class FoldProgress {
+ public:
+  FoldProgress(const DiagnosisProgress& progress, std::size_t folds)
+      : progress_(progress), share_(folds, 0.0) {}
+
+  DiagnosisProgress of(std::size_t fold) {
+    if (!progress_) return {};
+    return [this, fold](double share, std::string_view stage) {
+      const std::scoped_lock lock(mutex_);
+      share_[fold] = share;
+      const double folds = static_cast<double>(share_.size());
+      progress_(std::accumulate(share_.begin(), share_.end(), 0.0) / folds,
+                fmt::format("without fold {} of {}: {}", fold + 1, share_.size(), stage));
+    };
+  }
+
+ private:
+  const DiagnosisProgress& progress_;
+  std::mutex mutex_;
+  std::vector<double> share_;
+};
+
+constexpr std::size_t kMostAtOnce = 2;  // each holds a frame, and its search has threads of its own
 
 struct SearchedFold {
   Judged judged;
@@ -59,14 +78,19 @@ Result<NestedProof> nested_proof(const RecordingSet& all, const Finding& finding
   NestedProof nested;
   ArrayXd held = ArrayXd::Zero(whole->rows());
   ArrayXd before = held, after = held;
-  for (std::size_t k = 0; k < folds.size(); ++k) {
-    const auto one = search_without(all, *whole, folds[k], equation, limits, most_rows,
-                                    progress_of(progress, k, folds.size()));
-    if (!one) return tl::unexpected(one.error());
-    nested.named.push_back(one->named);
-    held += one->judged.held;
-    before += one->judged.residual_before * one->judged.held;
-    after += one->judged.residual_after * one->judged.held;
+  FoldProgress steps(progress, folds.size());
+  std::vector<std::optional<Result<SearchedFold>>> searched(folds.size());
+  in_parallel(folds.size(), std::min(kMostAtOnce, threads_for(limits.threads)), [&](std::size_t k) {
+    searched[k].emplace(
+        search_without(all, *whole, folds[k], equation, limits, most_rows, steps.of(k)));
+  });
+  for (auto& one : searched) {
+    if (!*one) return tl::unexpected(one->error());
+    const auto& [judged, named] = **one;
+    nested.named.push_back(named);
+    held += judged.held;
+    before += judged.residual_before * judged.held;
+    after += judged.residual_after * judged.held;
   }
   nested.proof = proof_on(*whole, held, equation, before, after);
   nested.proof.folds = static_cast<int>(folds.size());

@@ -35,6 +35,10 @@ struct Trial {
   double change = 0.0;   ///< largest change of the prediction over the same: what is seen of it
 };
 
+/// The equations whose fit a form and a set of causes tie together.
+std::vector<Equation> linked_equations(const Frame& frame, const std::vector<ActiveCause>& causes,
+                                       const CauseForm& form);
+
 /// The baseline, weighted by the noise that it leaves.
 Result<Findings> fit_baseline(const Frame& frame);
 

@@ -12,7 +12,8 @@ namespace {
 using Eigen::ArrayXd;
 
 constexpr double kSeen = 0.01;         // of a spline's height: rows that see less say nothing of it
-constexpr std::size_t kMostKept = 16;  // a megabyte or two each
+constexpr std::size_t kMostPlain = 4;  // some megabytes each
+constexpr std::size_t kMostWeighted = 16;  // a megabyte or two each
 
 /// What columns depend on, as a sum of 128 bits: two sums by different multipliers.
 class Sum {
@@ -57,7 +58,7 @@ Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape)
 }
 
 /// The latest of some kind of columns.
-template <typename T>
+template <typename T, std::size_t most>
 class Recent {
  public:
   template <typename Build>
@@ -66,7 +67,7 @@ class Recent {
     auto columns = std::make_shared<const T>(build());
     const std::scoped_lock lock(mutex_);
     kept_.push_front({sum, columns});
-    if (kept_.size() > kMostKept) kept_.pop_back();
+    if (kept_.size() > most) kept_.pop_back();
     return columns;
   }
 
@@ -113,8 +114,8 @@ WeightedBaseline weighted(const Frame& frame, Equation equation, std::span<const
 
 class KeptBaselines {
  public:
-  Recent<BaselineColumns> plain;
-  Recent<WeightedBaseline> weighted;
+  Recent<BaselineColumns, kMostPlain> plain;
+  Recent<WeightedBaseline, kMostWeighted> weighted;
 };
 
 std::shared_ptr<KeptBaselines> no_baselines_yet() { return std::make_shared<KeptBaselines>(); }
@@ -124,6 +125,15 @@ WeightedRows::WeightedRows(const ArrayXd& all) {
     if (all[r] > 0.0) at.push_back(r);
   }
   weight = all(at);
+}
+
+// By hand: an index given to Eigen is copied each time.
+Eigen::VectorXd WeightedRows::of(const ArrayXd& signal) const {
+  Eigen::VectorXd some(weight.size());
+  for (Eigen::Index i = 0; i < some.size(); ++i) {
+    some[i] = signal[at[static_cast<std::size_t>(i)]] * weight[i];
+  }
+  return some;
 }
 
 std::shared_ptr<const BaselineColumns> shared_baseline(const Frame& frame, Equation equation,

@@ -47,13 +47,13 @@ bool makes_a_turn(const ArrayXd& angle) {
   return angle.maxCoeff() - angle.minCoeff() > 2.0 * std::numbers::pi;
 }
 
-// load: what the model predicts, as the measured torque has the noise of what is to be explained.
+// load: what the model predicts, as the measured torque has the noise of what is to be explained;
+// after what is measured.
 std::vector<Coordinate> coordinates_of(const Frame& f, Equation equation, const ArrayXd& load) {
   const ArrayXd& speed = speed_of(f, equation);
   const ArrayXd& position = position_of(f, equation);
   std::vector<Coordinate> list = {
       {"velocity", "rad/s", speed},
-      {"load", "Nm", load},
       {"acceleration", "rad/s2", acceleration_of(f, equation)},
       {"reversal_memory", "rad", since_reversal(f, position, speed)},
       {"time", "s", f.clock},
@@ -66,6 +66,7 @@ std::vector<Coordinate> coordinates_of(const Frame& f, Equation equation, const 
   if (f.rig != Rig::locked && makes_a_turn(f.motor_angle)) {
     list.push_back({"motor_angle", "rad", within_a_turn(f.motor_angle)});
   }
+  list.push_back({"load", "Nm", load});
   return list;
 }
 
@@ -97,12 +98,17 @@ struct Best {
   SmoothTable::Fit fit;
 };
 
+// Of those that do as well the first: by a likelihood that the residual's dispersion divides
+// (Wedderburn 1974), with the two units by which Akaike (1974) tells models apart.
 Best best_of(const std::vector<Candidate>& candidates, const ArrayXd& residual,
              const ArrayXd& weight, double colour) {
+  const double rows = std::max(1.0, static_cast<double>((weight > 0.0).count()));
+  const double same = 2.0 * std::max(1.0, (residual * weight).square().sum() / rows);
   Best best;
   for (const Candidate& one : candidates) {
     auto fit = one.table.fit(residual, weight, colour);
-    if (fit.gain > best.fit.gain) best = {&one, std::move(fit)};
+    const double least = best.candidate == nullptr ? 0.0 : best.fit.gain + same;
+    if (fit.gain > least) best = {&one, std::move(fit)};
   }
   return best;
 }

@@ -50,7 +50,8 @@ Result<Frame> with_fitted_zeros(Frame frame, Findings findings) {
     const ArrayXd by = steps(frame, findings);
     move(frame, by);
     frame.measure_torsion();
-    const auto fitted = refresh(frame, findings, kFitSteps);
+    findings.reference = reference_of(frame, findings.fit.model);
+    const auto fitted = fit_all(frame, findings, kFitSteps);
     if (!fitted) return tl::unexpected(fitted.error());
     if (by.abs().maxCoeff() < kSettled * frame.torsion_range) break;
   }

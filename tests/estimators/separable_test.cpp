@@ -141,6 +141,19 @@ TEST(Separable, AShapeThatWouldLeaveItsBoundsEndsOnOne) {
       << "a start outside is put on the bound";
 }
 
+TEST(Separable, AShapePressedAgainstItsBoundEndsTheFitAtOnceAndDoesNotHinderOthers) {
+  const VectorXd t = times();
+  const auto pressed = fitted(decay_problem(2.0 * decay(0.5, t), {{1.0, 1.0, 3.0}}, kFree));
+  EXPECT_EQ(pressed.q[0], 1.0);
+  EXPECT_EQ(pressed.evaluations, 2) << "the start, and a difference that says where it is downhill";
+  const VectorXd y = 2.0 * decay(0.5, t) - 1.2 * decay(3.0, t);
+  const auto both = fitted(decay_problem(y, {{0.9, 0.1, 1.5}, {4.0, 4.0, 9.0}}, kFree));
+  const auto alone = fitted(decay_problem(y, {{0.9, 0.1, 1.5}, {4.0, 4.0, 4.0}}, kFree));
+  EXPECT_EQ(both.q[1], 4.0);
+  EXPECT_NEAR(both.q[0], alone.q[0], 1e-4);
+  EXPECT_LT(both.sum_of_squares, alone.sum_of_squares * (1.0 + 1e-6));
+}
+
 TEST(Separable, AShapeOfEqualBoundsIsHeldWhileOthersMove) {
   const VectorXd t = times();
   const VectorXd y = 2.0 * decay(0.5, t) - 1.2 * decay(3.0, t);

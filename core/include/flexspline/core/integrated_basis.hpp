@@ -37,7 +37,11 @@ class IntegratedBasis {
     return table_[i * intervals_ + interval];
   }
 
+  /// Of the quadratic splines three are not 0 on an interval, from that of its own number on.
+  static constexpr std::size_t kActive = 3;
+
   std::vector<double> breakpoints_;
+  std::vector<double> starts_;  ///< I_i at the left end of each interval, interval by interval
   std::size_t size_ = 0;
   std::size_t intervals_ = 0;
   std::vector<Quadratic> table_;
