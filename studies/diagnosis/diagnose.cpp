@@ -9,6 +9,7 @@
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
+#include "diagnosis/unnamed.hpp"
 #include "diagnosis/velocity_lag.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -42,6 +43,17 @@ std::vector<std::string> remarks_on(const Selection& s) {
             : fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
   }
   return remarks;
+}
+
+// causes: those of the selection, in its order.
+void weigh_what_is_left(const Frame& frame, const Selection& s, std::vector<Cause>& causes) {
+  const auto left = left_to_tables(frame, s.final);
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    double most = 0.0;
+    for (Equation at : s.accepted[i].trial.cause.form->at)
+      most = std::max(most, left[index_of(at)]);
+    causes[i].evidence.left_over = most / (0.5 * s.accepted[i].trial.gain);
+  }
 }
 
 // By the folds that choose: the calibration's.
@@ -90,6 +102,7 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.series = decision.taken_away;
   append(d.series, spelled_series(frame, selection, proof));
   d.causes = spelled_causes(frame, selection, proof);
+  weigh_what_is_left(frame, selection, d.causes);
   for (Cause& cause : d.causes) {
     if (decision.nested) cause.stability = stability_of(*decision.nested, cause);
   }
@@ -132,7 +145,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   auto mistaken = data::sanity_of(all);
   if (data::stops_science(mistaken)) return mistaken_diagnosis(all, std::move(mistaken));
   limits.threads = settings.threads;
-  limits.size = settings.interest;
+  limits.interest = settings.interest;
   const auto decision = decide(all, settings, limits, progress);
   if (!decision) return tl::unexpected(decision.error());
   Diagnosis d = spelled(all, *decision, limits);

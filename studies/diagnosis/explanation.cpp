@@ -66,7 +66,7 @@ double misfit_removed(const Frame& frame, const Selection& s) {
 }
 
 bool is_left(const CoordinateScore& score, const Limits& limits) {
-  return score.statistic > limits.remainder && score.share > limits.remainder_share;
+  return score.statistic > limits.gain && score.share > limits.tenth;
 }
 
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
@@ -74,8 +74,7 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
   if (!s.accepted.empty()) return most;
   for (const Accepted& a : s.immaterial) {
     if (a.trial.cause.row->of_baseline()) continue;
-    const bool seen =
-        a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.remainder_share;
+    const bool seen = a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.tenth;
     if (seen && (most == nullptr || a.trial.removed > most->trial.removed)) most = &a;
   }
   return most;
@@ -99,8 +98,8 @@ bool explains_enough(const Frame& frame, const Selection& s, const Limits& limit
   if (too_many(s, limits)) return false;
   const Balance b = balance_of(frame, s);
   const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
-  if (left > limits.remainder && b.taken < limits.explained * (b.taken + b.ordered)) return false;
-  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.misfit ||
+  if (left > limits.gain && b.taken < limits.explained * (b.taken + b.ordered)) return false;
+  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.as_noise ||
          b.taken > limits.half * b.before;
 }
 

@@ -331,7 +331,7 @@ class Sought {
       if (scan.at_corners() && is_at_the_sharpest(corners_, i, s)) continue;
       const auto part = residual.segment(segment.first + s.first, s.count);
       const double size = std::sqrt(part.square().mean()) / frame_.largest_torque(equation);
-      if (size < limits_.beyond_size) continue;
+      if (size < limits_.trifle()) continue;
       most_ = s.nats;
       found_ = Incident{equation, i, segment.first + s.first, s.count, size};
     }

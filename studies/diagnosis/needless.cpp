@@ -54,9 +54,9 @@ bool hides(const Frame& frame, const Selection& s, std::size_t large, std::size_
   if (large == small || !share_equation(a, b)) return false;
   if (!stands_for(a, b) && !stands_for(b, a)) return loss[small] < limits.shadow * loss[large];
   const double share = loss[small] / std::max(a.first_gain, b.first_gain);
-  if (share < limits.twin_shadow) return true;
-  return share < 2.0 * limits.twin_shadow &&
-         share_beyond_form(frame, s.final, small, large) < limits.twin_shadow;
+  if (share < limits.tenth) return true;
+  return share < 2.0 * limits.tenth &&
+         share_beyond_form(frame, s.final, small, large) < limits.tenth;
 }
 
 // The larger cause that hides another.
@@ -98,7 +98,7 @@ bool fitted_better(const Frame& frame, const Limits& limits, Selection& s, const
     smaller.fit = worth.without[i];
     auto again = extended(frame, smaller, s.accepted[i].trial.cause, kRefineSteps);
     if (!again) continue;
-    if (!(chi_square_rise(frame, s.final, *again) < worth.loss[i] - limits.net_gain)) continue;
+    if (!(chi_square_rise(frame, s.final, *again) < worth.loss[i] - limits.gain)) continue;
     s.final.fit = std::move(*again);
     const auto at = s.accepted.begin() + static_cast<long>(i);
     std::rotate(at, at + 1, s.accepted.end());
@@ -120,14 +120,13 @@ struct Needless {
   std::string_view because;
 };
 
-// One in a shadow stays where nothing is left with it, and something without it or a worth beyond
-// doubt, which no error in the form of the larger one explains.
+// One in a shadow stays where nothing is left with it, most of its worth no error in the form of
+// the larger one explains, and something is left without it or its worth is that of a name.
 bool stays(const Frame& frame, const Limits& limits, const Selection& s, const Worth& worth,
            std::size_t cause, std::size_t large) {
-  const double share = share_beyond_form(frame, s.final, cause, large);
-  if (worth.loss[cause] > limits.apart && share > limits.apart_from_form) return true;
-  return share > limits.beyond_form &&
-         leaves_something(frame, s.final, worth.without[cause], limits);
+  return share_beyond_form(frame, s.final, cause, large) > limits.half &&
+         (worth.loss[cause] > limits.named_gain ||
+          leaves_something(frame, s.final, worth.without[cause], limits));
 }
 
 // The least first.
@@ -141,7 +140,7 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
   std::vector<std::size_t> order(worth.loss.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return worth.loss[i]; });
-  if (!(worth.loss[order.front()] > limits.net_gain)) {
+  if (!(worth.loss[order.front()] > limits.gain)) {
     return {usurper_of(s, order.front()).value_or(order.front()), "the others explain it as well"};
   }
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);

@@ -38,7 +38,7 @@ Result<void> take_plain_forms(const Frame& frame, const Limits& limits, Selectio
     if (!fit) return tl::unexpected(fit.error());
     Findings simpler = s.final;
     simpler.fit = std::move(*fit);
-    if (chi_square(frame, simpler) - chi_square(frame, s.final) > limits.net_gain) continue;
+    if (chi_square(frame, simpler) - chi_square(frame, s.final) > limits.gain) continue;
     s.final = std::move(simpler);
     s.accepted[i].trial.cause = s.final.fit.model.causes.back();
     const auto at = s.accepted.begin() + static_cast<std::ptrdiff_t>(i);

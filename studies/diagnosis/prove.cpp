@@ -177,7 +177,7 @@ bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection
   double chi_square = 0.0;
   for (Equation equation : frame.equations) chi_square += s.final.chi_square(equation);
   const double gain = s.accepted[cause].trial.gain;
-  return gain > limits.unproved * (chi_square + gain);
+  return gain > limits.half * (chi_square + gain);
 }
 
 // What explains the same signal nearly as well as a cause that fails on recordings held out, if it

@@ -44,7 +44,7 @@ std::optional<RippleName> proved_name(const Frame& frame, const Selection& s, co
 std::optional<RippleFinding> find_ripple(const Frame& frame, const Selection& s,
                                          const Limits& limits) {
   const auto ripple = ripple_left(frame, s.final);
-  if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.remainder_share) {
+  if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.tenth) {
     return std::nullopt;
   }
   RippleFinding finding{*ripple, false, std::nullopt};

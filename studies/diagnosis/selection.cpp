@@ -14,7 +14,7 @@ namespace {
 constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
-  return trial.cause.row != nullptr && trial.net_gain >= limits.net_gain &&
+  return trial.cause.row != nullptr && trial.net_gain >= limits.gain &&
          !is_taken_up(trial, limits) &&
          !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
 }
@@ -22,7 +22,7 @@ bool admissible(const Trial& trial, const Limits& limits) {
 Accepted accepted_as(Trial trial, const Limits& limits) {
   Accepted accepted;
   accepted.first_gain = trial.gain;
-  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.size &&
+  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.interest &&
                       trial.net_gain >= limits.named_gain;
   accepted.trial = std::move(trial);
   return accepted;
@@ -154,7 +154,7 @@ Result<void> keep_the_main(const Frame& frame, const Limits& limits, Selection& 
     const auto fitted = fit_again(frame, fewer);
     if (!fitted) return fitted;
     judge(frame, fewer);
-    if (fewer.removed < limits.main * removed) return {};
+    if (fewer.removed < limits.alike * removed) return {};
   }
   s = std::move(fewer);
   return {};
@@ -171,7 +171,7 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
     judge(frame, s);
   }
   s.remainder = !stands || s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
-                worst_misfit(frame, s.final) > limits.unordered;
+                worst_misfit(frame, s.final) > limits.as_noise;
   return {};
 }
 
@@ -192,7 +192,7 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
 }
 
 bool is_taken_up(const Trial& trial, const Limits& limits) {
-  return trial.cause.form->transform == nullptr && trial.size >= limits.taken_up &&
+  return trial.cause.form->transform == nullptr && trial.size >= limits.half &&
          trial.change < trial.size;
 }
 

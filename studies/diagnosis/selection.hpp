@@ -10,39 +10,28 @@
 namespace flexspline::studies {
 
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
-/// from: docs/diagnosis.md.
+/// from: docs/diagnosis.md and docs/decisions/0026.
 struct Limits {
-  double net_gain = 18.0;        ///< least net gain of a cause
-  double named_gain = 80.0;      ///< least net gain of a cause that is named
-  double size = 0.008;           ///< least size of a cause, share of the largest torque
-  double taken_up = 0.5;         ///< larger columns are taken up by the baseline, not seen
-  double alike = 0.9;            ///< gain of a rival over the best that makes it an alternative
-  double remainder = 24.0;       ///< statistic of a coordinate that says something is left
-  double remainder_share = 0.1;  ///< and the share of the residual it has to order
-  double shadow = 0.03;          ///< gain over that of a larger cause of the same equation
-  double twin_shadow = 0.1;      ///< the same over that of one that could stand for it
-  double beyond_form = 0.4;      ///< share of that gain that no error in the larger's form explains
-  double apart = 120.0;          ///< gain in a shadow that needs nothing to be left without it,
-  double apart_from_form = 0.55;  ///< with this share
-  double main = 0.95;       ///< share of it that the main ones of too many causes have to remove
-  double explained = 0.75;  ///< share of the misfit that the causes have to remove
-  double half = 0.5;        ///< the same of the whole sum of squares, where noise is unsure
-  double misfit = 1.5;      ///< mean square over noise that counts as explained
-  double unordered = 2.5;   ///< and that is something left, whatever orders it
-  double unproved = 0.25;   ///< share of the misfit that an unproved cause cannot take quietly
+  double gain = 18.0;        ///< least net gain of a cause, and statistic of a coordinate that says
+                             ///< something is left
+  double named_gain = 80.0;  ///< least net gain of a cause that is named, or stands in a shadow
+  double interest = 0.008;   ///< least size of a cause, share of the largest torque
+  double half = 0.5;         ///< the larger part: of a gain, a misfit, a torque or its variance
+  double alike = 0.9;        ///< of another's gain: as good as that
+  double tenth = 0.1;        ///< of a residual, or of what could stand for the same: no trifle
+  double shadow = 0.03;      ///< gain over that of a larger cause of the same equation
   double held_out_share = 0.04;  ///< least share that a cause explains of the mean square held out
-  std::size_t causes = 4;  ///< more together, or as many where something is left, are a stand-in
-                           ///< for something without a name
-  double beyond_noise = 1.4142;  ///< held-out error over noise: more, and the model's own error is
-                                 ///< larger than the noise
-  double beyond_size = 0.002;    ///< and its rms this share of the largest torque
-  double least_told = 0.5;       ///< share of the torque's variance that a model has to follow
-  double physics = 0.5;          ///< larger causes, shares of torque, are a mistake of units
-  double rescaled = 0.4;         ///< and so are gains that are off by more
+  double explained = 0.75;       ///< share of the misfit that the causes have to remove
+  double as_noise = 2.0;       ///< mean square over the noise's: the model's own error is as large
   double ripple_share = 0.25;  ///< least share of the fast changes in steady strokes that is named
-  std::size_t incidents = 3;   ///< stretches of single recordings that are left out at most
+  std::size_t causes = 4;     ///< more together, or as many where something is left, are a stand-in
+                              ///< for something without a name
+  std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has
+
+  /// Rms share of the largest torque below which an error is no matter: a quarter of a peak.
+  double trifle() const { return 0.25 * interest; }
 };
 
 /// A cause that was accepted, with the others that did nearly as well.

@@ -74,7 +74,7 @@ std::string outcome_of(const Accepted& a) {
 
 std::string outcome_of(const Trial& t, bool rival, const Limits& limits) {
   if (rival) return "explains the same signal nearly as well: an alternative";
-  if (t.net_gain < limits.net_gain) return "gains no more than noise would";
+  if (t.net_gain < limits.gain) return "gains no more than noise would";
   if (is_taken_up(t, limits)) return "absorbed by the baseline";
   return "gains less than the accepted one";
 }
@@ -116,7 +116,7 @@ std::string proof_in_words(const HoldoutProof& proof, std::size_t causes) {
 }
 
 std::string why_immaterial(const Trial& trial, const Limits& limits) {
-  if (trial.size < limits.size) {
+  if (trial.size < limits.interest) {
     return fmt::format("there, but {:.2g} % of torque is too small to be named",
                        100.0 * trial.size);
   }

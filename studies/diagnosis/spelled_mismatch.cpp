@@ -74,7 +74,7 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
   }
   for (const CoordinateScore& score : s.accepted.empty() ? s.after : s.before) {
     // Where something is left, the strongest coordinate is told even if it orders little of it.
-    const bool told = score.statistic >= limits.remainder || (list.empty() && s.remainder);
+    const bool told = score.statistic >= limits.gain || (list.empty() && s.remainder);
     if (list.size() >= kMostMismatches || !told) break;
     if (listed(list, score.coordinate)) continue;
     Mismatch m = at_worst(frame, s.baseline, score.equation);

@@ -40,7 +40,7 @@ SanityFinding finding(const CauseRow& row, std::string what) {
 
 std::optional<SanityFinding> rescaled(const Accepted& accepted, const Eigen::VectorXd& a,
                                       const Limits& limits) {
-  if (!accepted.trial.cause.form->rescales || std::abs(a[0]) < limits.rescaled) return std::nullopt;
+  if (!accepted.trial.cause.form->rescales || std::abs(a[0]) < limits.half) return std::nullopt;
   auto found =
       finding(*accepted.trial.cause.row, fmt::format("a channel off by {:+.3g} of itself", a[0]));
   if (std::abs(a[0]) > 1.0) found.code = "check_sign";
@@ -58,7 +58,7 @@ std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accep
   const Trial& trial = accepted.trial;
   const CauseForm& form = *trial.cause.form;
   const double size = form.transform != nullptr ? std::min(trial.size, trial.change) : trial.size;
-  if (may_be_large(frame, form) || size < limits.physics) return std::nullopt;
+  if (may_be_large(frame, form) || size < limits.half) return std::nullopt;
   return finding(*trial.cause.row, fmt::format("of {:.0f} % of the largest torque", 100.0 * size));
 }
 
@@ -135,7 +135,7 @@ std::optional<Undecidable> undecidable(const Frame& frame, const Selection& s, V
   if (one_loop(frame)) return of_one_loop(frame, verdict);
   const bool unnamed = verdict == Verdict::adequate || verdict == Verdict::unexplained;
   const double followed = share_followed(frame, s);
-  if (unnamed && followed < limits.least_told) return of_noise(followed);
+  if (unnamed && followed < limits.half) return of_noise(followed);
   return std::nullopt;
 }
 

@@ -20,9 +20,10 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kKnots = 12;       // of one coordinate
-constexpr int kPairKnots = 6;    // of each of two
-constexpr double kSharp = 0.01;  // of the largest speed: where a direction turns
+constexpr int kKnots = 12;        // of one coordinate
+constexpr int kPairKnots = 6;     // of each of two
+constexpr double kBetter = 1.01;  // rows of what is left are not independent of each other
+constexpr double kSharp = 0.01;   // of the largest speed: where a direction turns
 
 /// A coordinate that a table may stand over.
 struct Coordinate {
@@ -98,17 +99,13 @@ struct Best {
   SmoothTable::Fit fit;
 };
 
-// Of those that do as well the first: by a likelihood that the residual's dispersion divides
-// (Wedderburn 1974), with the two units by which Akaike (1974) tells models apart.
+// Of those that do as well the first.
 Best best_of(const std::vector<Candidate>& candidates, const ArrayXd& residual,
              const ArrayXd& weight, double colour) {
-  const double rows = std::max(1.0, static_cast<double>((weight > 0.0).count()));
-  const double same = 2.0 * std::max(1.0, (residual * weight).square().sum() / rows);
   Best best;
   for (const Candidate& one : candidates) {
     auto fit = one.table.fit(residual, weight, colour);
-    const double least = best.candidate == nullptr ? 0.0 : best.fit.gain + same;
-    if (fit.gain > least) best = {&one, std::move(fit)};
+    if (fit.gain > kBetter * best.fit.gain) best = {&one, std::move(fit)};
   }
   return best;
 }
@@ -202,6 +199,14 @@ UnnamedPart spelled(const Frame& frame, const Findings& findings, const Found& f
 
 }  // namespace
 
+std::array<double, 3> left_to_tables(const Frame& frame, const Findings& findings) {
+  std::array<double, 3> gain{};
+  for (Equation equation : frame.equations) {
+    gain[index_of(equation)] = found_in(frame, findings, equation).best.fit.gain;
+  }
+  return gain;
+}
+
 std::optional<UnnamedPart> unnamed_part(const Frame& frame, const Selection& s, const Proof& proof,
                                         const Limits& limits) {
   std::optional<Found> most;
@@ -214,7 +219,7 @@ std::optional<UnnamedPart> unnamed_part(const Frame& frame, const Selection& s, 
   const HoldoutProof h = proved(frame, s.final, proof, *most);
   const double taken =
       std::sqrt(std::max(h.rmse_before * h.rmse_before - h.rmse_after * h.rmse_after, 0.0));
-  const double trifle = limits.beyond_size * frame.largest_torque(most->equation);
+  const double trifle = limits.trifle() * frame.largest_torque(most->equation);
   if (!(h.ci95_upper < 1.0) || !(taken > trifle)) return std::nullopt;
   return spelled(frame, s.final, *most, h);
 }

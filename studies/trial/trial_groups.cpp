@@ -73,7 +73,7 @@ double ScoredCase::least_trace() const {
 }
 
 std::vector<ScoredCase> that_can_be_seen(const std::vector<ScoredCase>& cases) {
-  const double limit = Limits{}.size;
+  const double limit = Limits{}.interest;
   std::vector<ScoredCase> seen = cases;
   std::erase_if(seen, [limit](const ScoredCase& one) { return !(one.least_trace() >= limit); });
   return seen;

@@ -37,26 +37,15 @@ struct Rule {
 std::vector<Rule> rules() {
   return {
       {"all rules", [](Limits&) {}},
-      {"named_gain", [](Limits& l) { l.named_gain = l.net_gain; }},
-      {"taken_up", [](Limits& l) { l.taken_up = kNever; }},
-      {"alike", [](Limits& l) { l.alike = 1.0; }},
-      {"remainder", [](Limits& l) { l.remainder = kNever; }},
-      {"shadow", [](Limits& l) { l.shadow = l.twin_shadow = 0.0; }},
-      {"twin_shadow", [](Limits& l) { l.twin_shadow = l.shadow; }},
-      {"beyond_form", [](Limits& l) { l.beyond_form = l.apart = kNever; }},
-      {"apart", [](Limits& l) { l.apart = kNever; }},
-      {"main", [](Limits& l) { l.main = kNever; }},
-      {"explained", [](Limits& l) { l.explained = l.half = 0.0; }},
+      {"named_gain", [](Limits& l) { l.named_gain = l.gain; }},
       {"half", [](Limits& l) { l.half = kNever; }},
-      {"misfit", [](Limits& l) { l.misfit = 0.0; }},
-      {"unordered", [](Limits& l) { l.unordered = kNever; }},
-      {"unproved", [](Limits& l) { l.unproved = kNever; }},
+      {"alike", [](Limits& l) { l.alike = 1.0; }},
+      {"tenth", [](Limits& l) { l.tenth = l.shadow; }},
+      {"shadow", [](Limits& l) { l.shadow = l.tenth = 0.0; }},
+      {"explained", [](Limits& l) { l.explained = 0.0; }},
+      {"as_noise", [](Limits& l) { l.as_noise = kNever; }},
       {"held_out_share", [](Limits& l) { l.held_out_share = 0.0; }},
       {"causes", [](Limits& l) { l.causes = 99; }},
-      {"beyond_noise", [](Limits& l) { l.beyond_noise = kNever; }},
-      {"least_told", [](Limits& l) { l.least_told = -kNever; }},
-      {"physics", [](Limits& l) { l.physics = kNever; }},
-      {"rescaled", [](Limits& l) { l.rescaled = kNever; }},
       {"ripple_share", [](Limits& l) { l.ripple_share = kNever; }},
       {"incidents", [](Limits& l) { l.incidents = 0; }},
   };
@@ -88,8 +77,10 @@ std::string in_words(const Result<studies::Diagnosis>& d) {
   if (!d) return "failed";
   std::string text(studies::name_of(d->verdict));
   for (const auto& cause : d->causes) {
-    text += fmt::format(" {}({:.2f} p{:.2f} r{:.2f})", cause.effect, cause.size_fraction,
-                        cause.probability, cause.evidence.holdout_rmse_ratio);
+    text +=
+        fmt::format(" {}({:.2f} p{:.2f} r{:.3f} m{:.3f} left{:.4f} alt{})", cause.effect,
+                    cause.size_fraction, cause.probability, cause.evidence.holdout_rmse_ratio,
+                    d->holdout.over_noise(), cause.evidence.left_over, cause.alternatives.size());
   }
   return text;
 }
@@ -110,6 +101,14 @@ std::string hidden_in(const ConcealedCase& one) {
     text += fmt::format(" {} {:.3f}", effect.id, effect.size_fraction);
   }
   for (const auto& other : one.answer.disturbances) text += " ~" + other.id;
+  return text;
+}
+
+std::string names_in(const CaseScore& score) {
+  std::string text;
+  for (const auto& name : score.names) {
+    text += fmt::format(" {}:{}", name.effect, name.right ? "right" : "false");
+  }
   return text;
 }
 
@@ -197,8 +196,9 @@ int on_trial(int argc, char** argv) {
       base = answers(cases, limits);
       compare(rule.name, cases, base, base);
       for (std::size_t i = 0; i < cases.size(); ++i) {
-        fmt::print(stderr, "base {} {} | {} | {}\n", i, is_right(base[i].score) ? "right" : "WRONG",
-                   hidden_in(cases[i]), base[i].says);
+        fmt::print(stderr, "base {} {} | {} | {} |{}\n", i,
+                   is_right(base[i].score) ? "right" : "WRONG", hidden_in(cases[i]), base[i].says,
+                   names_in(base[i].score));
       }
       continue;
     }

@@ -193,7 +193,7 @@ TEST(Locate, AResidualThatFollowsOneCoordinateIsFoundThere) {
     ASSERT_FALSE(scores.empty());
     EXPECT_EQ(scores.front().coordinate, each.coordinate);
     EXPECT_EQ(scores.front().equation, each.equation) << each.coordinate;
-    EXPECT_GT(scores.front().statistic, Limits{}.remainder) << each.coordinate;
+    EXPECT_GT(scores.front().statistic, Limits{}.gain) << each.coordinate;
     EXPECT_TRUE(
         std::ranges::is_sorted(scores, std::ranges::greater{}, &CoordinateScore::statistic));
   }
@@ -205,7 +205,7 @@ TEST(Locate, AProductOfPositionAndSpeedIsFoundThoughNeitherOrdersIt) {
   const auto scores = locate_anything(frame, findings_of(frame, Equation::torsion, product));
   EXPECT_EQ(scores.front().coordinate, "velocity");
   EXPECT_NE(scores.front().says.find("at every position"), std::string::npos);
-  EXPECT_GT(scores.front().statistic, Limits{}.remainder);
+  EXPECT_GT(scores.front().statistic, Limits{}.gain);
   for (const CoordinateScore& score : scores) {
     const bool one_of_both =
         score.says.ends_with("the torsion") || score.says.ends_with("the speed");
@@ -219,7 +219,7 @@ TEST(Locate, NoiseIsNowhere) {
   const Frame frame = closed_form_frame();
   for (const CoordinateScore& score :
        locate_anything(frame, findings_of(frame, Equation::motor, ArrayXd::Zero(frame.rows())))) {
-    EXPECT_LT(score.statistic, 0.25 * Limits{}.remainder) << score.coordinate;
+    EXPECT_LT(score.statistic, 0.25 * Limits{}.gain) << score.coordinate;
   }
 }
 

@@ -34,10 +34,10 @@ Trial trial_of(double size, double change, bool transform) {
 
 TEST(TakenUp, IsWhatIsLargeAndMovesThePredictionByLess) {
   const Limits limits;
-  const double large = 1.2 * limits.taken_up;
+  const double large = 1.2 * limits.half;
   EXPECT_TRUE(is_taken_up(trial_of(large, 0.5 * large, false), limits));
   EXPECT_FALSE(is_taken_up(trial_of(large, 1.1 * large, false), limits)) << "it is seen in full";
-  EXPECT_FALSE(is_taken_up(trial_of(0.9 * limits.taken_up, 0.0, false), limits)) << "small";
+  EXPECT_FALSE(is_taken_up(trial_of(0.9 * limits.half, 0.0, false), limits)) << "small";
   EXPECT_FALSE(is_taken_up(trial_of(large, 0.0, true), limits)) << "no column";
 }
 
@@ -152,7 +152,7 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   const auto left = [&](double gain, double removed, bool beside_a_cause = false) {
     Selection s;
     Accepted small;
-    small.trial = trial_of(0.5 * limits.size, 0.5 * limits.size, false);
+    small.trial = trial_of(0.5 * limits.interest, 0.5 * limits.interest, false);
     small.trial.net_gain = gain;
     small.trial.removed = removed;
     s.immaterial = {small};
@@ -160,7 +160,7 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
     return left_unnamed(s, limits) != nullptr;
   };
   const double gain = 2.0 * limits.named_gain;
-  const double removed = 2.0 * limits.remainder_share;
+  const double removed = 2.0 * limits.tenth;
   EXPECT_TRUE(left(gain, removed));
   EXPECT_FALSE(left(0.4 * gain, removed)) << "no name would be worth so little";
   EXPECT_FALSE(left(gain, 0.4 * removed)) << "it orders next to nothing";
@@ -170,10 +170,10 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
 
 TEST(Explanation, ACauseStandsAloneWhereItClearsWhatItsCoordinateOrdered) {
   const Limits limits;
-  const CoordinateScore strong{Equation::torsion, "reversal_memory", 10.0 * limits.remainder,
-                               3.0 * limits.remainder_share, ""};
+  const CoordinateScore strong{Equation::torsion, "reversal_memory", 10.0 * limits.gain,
+                               3.0 * limits.tenth, ""};
   CoordinateScore weak = strong;
-  weak.share = 0.1 * limits.remainder_share;
+  weak.share = 0.1 * limits.tenth;
   CoordinateScore elsewhere = strong;
   elsewhere.coordinate = "time";
   CoordinateScore other_equation = strong;
