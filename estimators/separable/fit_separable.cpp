@@ -49,10 +49,6 @@ Eigen::VectorXd times(const SeparableBlock& block, const Eigen::VectorXd& b) {
   return product;
 }
 
-Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
-  return block.target - times(block, b);
-}
-
 /// N b = X^T target of all blocks together.
 struct NormalEquations {
   Eigen::MatrixXd normal;
@@ -255,6 +251,10 @@ bool improve(const SeparableProblem& problem, Point& point, double& damping, dou
 }
 
 }  // namespace
+
+Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
+  return block.target - times(block, b);
+}
 
 SharedColumns::SharedColumns(Eigen::MatrixXd weighted) : columns(std::move(weighted)) {}
 

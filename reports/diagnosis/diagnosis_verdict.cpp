@@ -50,7 +50,7 @@ Table causes_table(const DiagnosisView& view) {
   Table table{
       "causes",
       "Missing physics, largest first. The size is the largest contribution, in percent "
-      "of the largest torque; the probability is that the name or an alternative is right, "
+      "of the largest torque; the probability is that the name is right, "
       "calibrated on simulated cases; the hold-out ratio is the misfit with it, beside all the "
       "others, over the misfit without it, cross-validated, selection not nested.",
       {{"missing", "", 3},

@@ -61,7 +61,7 @@ void judge_names(const HoldoutProof& holdout, Diagnosis& d) {
   for (Cause& cause : d.causes) {
     cause.probability = probability_right({.ratio = cause.evidence.holdout_rmse_ratio,
                                            .over_noise = holdout.over_noise(),
-                                           .names = d.causes.size(),
+                                           .left_over = cause.evidence.left_over,
                                            .alternatives = cause.alternatives.size()});
   }
 }

@@ -24,29 +24,31 @@ std::vector<double> starts_of(const std::vector<ShapeBound>& shapes) {
   return q;
 }
 
-VectorXd residual_of(const SeparableBlock& block, const VectorXd& b) {
-  const Index shared = block.shared->columns.cols();
-  const VectorXd own = b(block.index);
-  return block.target - block.shared->columns * own.head(shared) -
-         block.columns * own.tail(block.columns.cols());
+VectorXd residual_at(const SeparableBlock& block, const VectorXd& b) {
+  return estimators::residual_of(block, b(block.index));
 }
 
 /// Columns of one equation and the places of their parameters.
 struct Wide {
-  MatrixXd columns;
-  std::vector<Index> index;
+  explicit Wide(const SeparableBlock& block)
+      : columns(block.target.size(), static_cast<Index>(block.index.size())), index(block.index) {
+    columns << block.shared->columns, block.columns;
+  }
 
   void add(const VectorXd& column, Index at) {
     columns.conservativeResize(column.size(), columns.cols() + 1);
     columns.col(columns.cols() - 1) = column;
     index.push_back(at);
   }
+
+  MatrixXd columns;
+  std::vector<Index> index;
 };
 
-Wide linear_columns(const SeparableBlock& block) {
-  Wide wide{MatrixXd(block.target.size(), static_cast<Index>(block.index.size())), block.index};
-  wide.columns << block.shared->columns, block.columns;
-  return wide;
+// A step by which a shape stays in its bounds; 0 where it is held.
+double step_of(const ShapeBound& bound, double q) {
+  const double step = kDifference * (bound.upper - bound.lower);
+  return q + step > bound.upper ? -step : step;
 }
 
 }  // namespace
@@ -72,27 +74,24 @@ Linearised::Linearised(const Frame& frame, const Findings& findings,
 
 void Linearised::take(const ModelProblem& model, const VectorXd& b) {
   const auto q = starts_of(model.shapes());
-  const auto blocks = model.assemble(q);
   std::vector<Wide> wide;
-  for (std::size_t e = 0; e < blocks.size(); ++e) {
-    WeightedRows rows(findings_.fit_weight[index_of(equations_[e])]);
-    blocks_.push_back({std::move(rows), nullptr, residual_of(blocks[e], b), {}});
-    wide.push_back(linear_columns(blocks[e]));
+  for (const SeparableBlock& block : model.assemble(q)) {
+    WeightedRows rows(findings_.fit_weight[index_of(equations_[blocks_.size()])]);
+    blocks_.push_back({std::move(rows), nullptr, residual_at(block, b), {}});
+    wide.emplace_back(block);
   }
   lower_.resize(b.size() + static_cast<Index>(q.size()));
   lower_.head(b.size()) = model.lower() - b;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    const ShapeBound& bound = model.shapes()[i];
     const Index at = b.size() + static_cast<Index>(i);
-    lower_[at] = bound.lower - q[i];
-    double step = kDifference * (bound.upper - bound.lower);
+    lower_[at] = model.shapes()[i].lower - q[i];
+    const double step = step_of(model.shapes()[i], q[i]);
     if (step == 0.0) continue;
-    if (q[i] + step > bound.upper) step = -step;
     auto moved_to = q;
     moved_to[i] += step;
     const auto moved = model.assemble(moved_to);
     for (std::size_t e = 0; e < moved.size(); ++e) {
-      const VectorXd change = (blocks_[e].residual - residual_of(moved[e], b)) / step;
+      const VectorXd change = (blocks_[e].residual - residual_at(moved[e], b)) / step;
       if (change.squaredNorm() > 0.0) wide[e].add(change, at);
     }
   }
@@ -192,7 +191,7 @@ class Linearised::Candidate {
     auto q = starts_of(model_->shapes());
     std::ranges::copy(s, q.end() - std::ssize(s));
     const auto moved = model_->assemble(q);
-    for (std::size_t e = 0; e < blocks.size(); ++e) blocks[e].target = residual_of(moved[e], b_);
+    for (std::size_t e = 0; e < blocks.size(); ++e) blocks[e].target = residual_at(moved[e], b_);
   }
 
   const Linearised& base_;

@@ -16,19 +16,19 @@ double log_odds(const NameEvidence& evidence) {
 
 // Each number moves the log odds by its own term, whatever the others are.
 TEST(ProbabilityRight, IsLinearInTheLogOdds) {
-  const NameEvidence one{.ratio = std::sqrt(0.5), .over_noise = 1.1, .names = 1};
+  const NameEvidence one{.ratio = std::sqrt(0.5), .over_noise = 1.1, .left_over = 0.01};
   NameEvidence half = one, more = one, noisier = one, either = one;
   half.ratio = std::sqrt(0.75);
-  more.names = 3;
+  more.left_over = 0.05;
   noisier.over_noise = 1.21;
   either.alternatives = 1;
   const double share = log_odds(half) - log_odds(one);
-  const double names = log_odds(more) - log_odds(one);
+  const double left = log_odds(more) - log_odds(one);
   const double misfit = log_odds(noisier) - log_odds(one);
   const double others = log_odds(either) - log_odds(one);
-  for (const double term : {share, names, misfit, others}) EXPECT_LT(term, -0.1);
-  const NameEvidence all{.ratio = half.ratio, .over_noise = 1.21, .names = 3, .alternatives = 1};
-  EXPECT_NEAR(log_odds(all), log_odds(one) + share + names + misfit + others, 1e-9);
+  for (const double term : {share, left, misfit, others}) EXPECT_LT(term, -0.1);
+  const NameEvidence all{.ratio = half.ratio, .over_noise = 1.21, .left_over = 0.05, .alternatives = 1};
+  EXPECT_NEAR(log_odds(all), log_odds(one) + share + left + misfit + others, 1e-9);
   NameEvidence quarter = one;
   quarter.ratio = std::sqrt(0.875);
   EXPECT_NEAR(log_odds(quarter) - log_odds(half), share, 1e-9) << "by the logarithm of the share";

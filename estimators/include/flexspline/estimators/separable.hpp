@@ -35,6 +35,9 @@ struct SeparableBlock {
   std::shared_ptr<const SharedColumns> shared = nullptr;
 };
 
+/// target - [shared columns] b, b in the order of the block's index.
+Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b);
+
 /// A parameter that enters non-linearly; held where its bounds are one.
 struct ShapeBound {
   double start = 0.0;

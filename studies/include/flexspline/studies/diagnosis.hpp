@@ -60,8 +60,8 @@ struct CauseEvidence {
 /// An effect that was left out of the baseline.
 struct Cause {
   std::string effect;
-  /// That it or one of its alternatives is right, calibrated on simulated cases of two generators
-  /// (docs/decisions/0023).
+  /// That it is right, not one of its alternatives, calibrated on simulated cases of two generators
+  /// (docs/decisions/0027).
   double probability = kNotComputed;
   double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
   double size = kNotComputed;           ///< the same, SI
