@@ -72,7 +72,8 @@ TEST(Terms, EveryColumnOfEveryCauseIsNamed) {
 
 TEST(Causes, AreListedLargestFirst) {
   const Diagnosis d = diagnosed(
-      drawn_case(Rig::locked, 31, {{"torque_sensor_offset", 0.03}, {"backlash", 0.09}}).recordings);
+      drawn_case(Rig::locked, 31, {{"torque_sensor_offset", 0.03}, {"presliding_hysteresis", 0.06}})
+          .recordings);
   ASSERT_GE(d.causes.size(), 2U);
   for (std::size_t k = 1; k < d.causes.size(); ++k) {
     EXPECT_GE(d.causes[k - 1].size_fraction, d.causes[k].size_fraction);
