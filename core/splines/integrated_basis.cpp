@@ -50,7 +50,7 @@ IntegratedBasis::IntegratedBasis(std::span<const double> interior_knots) {
       const double second = 8.0 * (y1 - 2.0 * y2 + y3) / (width * width);
       const double first = (y3 - y1) / (0.5 * width) - second * width;
       const double at_left = y2 - first * 0.5 * width - second * 0.25 * width * width;
-      table_[i * intervals_ + j] = {at_left, first, second, integral};
+      table_[i * intervals_ + j] = {at_left, first, second};
       starts_[j * size_ + i] = integral;
       integral += width * (at_left + width * (first / 2.0 + width * second / 3.0));
     }
@@ -92,7 +92,7 @@ std::vector<std::array<double, 4>> IntegratedBasis::pieces(
     auto& p = result[j];
     for (std::size_t i = 0; i < size_; ++i) {
       const Quadratic& q = piece(i, j);
-      p[0] += coefficients[i] * q.start;
+      p[0] += coefficients[i] * starts_[j * size_ + i];
       p[1] += coefficients[i] * q.q0;
       p[2] += coefficients[i] * q.q1 / 2.0;
       p[3] += coefficients[i] * q.q2 / 3.0;

@@ -166,12 +166,11 @@ Eigen::MatrixXd jacobian(const SeparableProblem& problem, const Point& point, in
   Eigen::MatrixXd result(rows, static_cast<Eigen::Index>(fit.q.size()));
   for (std::size_t i = 0; i < fit.q.size(); ++i) {
     const ShapeBound& bound = problem.shapes[i];
-    double step = kDifference * (bound.upper - bound.lower);
+    const double step = difference_step(bound, fit.q[i]);
     if (step == 0.0) {
       result.col(static_cast<Eigen::Index>(i)).setZero();
       continue;
     }
-    if (fit.q[i] + step > bound.upper) step = -step;
     std::vector<double> q = fit.q;
     q[i] += step;
     const auto moved = problem.assemble(q);
@@ -216,8 +215,9 @@ Eigen::VectorXd difference(const std::vector<double>& to, const std::vector<doub
          Eigen::Map<const Eigen::VectorXd>(from.data(), n);
 }
 
-// Marquardt's damping, raised ever faster until the sum of squares falls. False where it no longer
-// does, or where the Jacobian, whose gradient is exact, promises no fall worth a step.
+// Marquardt's damping, raised ever faster until the sum of squares falls; a step of which the
+// Jacobian, whose gradient is exact, promises no fall that counts is not tried. False where none is
+// left.
 bool improve(const SeparableProblem& problem, Point& point, double& damping, double smallest_gain) {
   SeparableFit& fit = point.fit;
   const Eigen::MatrixXd j = jacobian(problem, point, fit.evaluations);
@@ -234,10 +234,7 @@ bool improve(const SeparableProblem& problem, Point& point, double& damping, dou
     const auto q = stepped(problem, fit.q, wanted);
     const Eigen::VectorXd step = difference(q, fit.q);
     const double promised = -step.dot(2.0 * gradient + hessian * step);
-    if (!(promised > smallest_gain * fit.sum_of_squares)) {
-      if (step == wanted) return false;
-      continue;
-    }
+    if (!(promised > smallest_gain * fit.sum_of_squares)) continue;
     Point trial = point_at(problem, q);
     trial.fit.evaluations = ++fit.evaluations;
     if (!(trial.fit.sum_of_squares < fit.sum_of_squares)) continue;
@@ -251,6 +248,19 @@ bool improve(const SeparableProblem& problem, Point& point, double& damping, dou
 }
 
 }  // namespace
+
+std::vector<double> starts_of(const std::vector<ShapeBound>& shapes) {
+  std::vector<double> q;
+  for (const ShapeBound& shape : shapes) {
+    q.push_back(std::clamp(shape.start, shape.lower, shape.upper));
+  }
+  return q;
+}
+
+double difference_step(const ShapeBound& bound, double q) {
+  const double step = kDifference * (bound.upper - bound.lower);
+  return q + step > bound.upper ? -step : step;
+}
 
 Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
   return block.target - times(block, b);
@@ -269,10 +279,7 @@ SeparableFit solve_linear(const SeparableProblem& problem, std::span<const doubl
 
 Result<SeparableFit> fit_separable(const SeparableProblem& problem, int most_steps,
                                    double smallest_gain) {
-  std::vector<double> q;
-  for (const ShapeBound& shape : problem.shapes) {
-    q.push_back(std::clamp(shape.start, shape.lower, shape.upper));
-  }
+  const std::vector<double> q = starts_of(problem.shapes);
   Point point = point_at(problem, q);
   if (!std::isfinite(point.fit.sum_of_squares)) {
     return failure(ErrorCode::numerics, "the residuals are not finite at the start",

@@ -43,15 +43,6 @@ std::vector<std::vector<double>> starts(const CauseForm& form, const Frame& fram
   return list;
 }
 
-double chi_square(const Findings& findings, const ModelFit& fit, const Frame& frame) {
-  double sum = 0.0;
-  for (Equation equation : frame.equations) {
-    const std::size_t e = index_of(equation);
-    sum += fit.sum_of_squares[e] / findings.noise[e].colour;
-  }
-  return sum;
-}
-
 int parameters_of(const ActiveCause& cause, const ModelFit& fit) {
   const Eigen::VectorXd& a = fit.model.coefficients.back();
   int count = static_cast<int>(cause.shape.size());
@@ -163,7 +154,7 @@ void take_better(Result<ModelFit>& fit, Result<ModelFit> other) {
 Trial judged(const Frame& frame, const Findings& findings, ModelFit fit, std::size_t tried) {
   Trial trial{.cause = fit.model.causes.back(), .fit = std::move(fit)};
   trial.parameters = parameters_of(trial.cause, trial.fit);
-  trial.gain = chi_square(findings, findings.fit, frame) - chi_square(findings, trial.fit, frame);
+  trial.gain = chi_square(frame, findings, findings.fit) - chi_square(frame, findings, trial.fit);
   trial.net_gain = trial.gain - search_penalty(tried) -
                    trial.parameters * std::log(effective_rows(frame, findings, *trial.cause.form));
   const double misfit = excess(frame, findings, findings.fit);

@@ -8,7 +8,6 @@
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/folds.hpp"
-#include "diagnosis/unnamed.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -109,8 +108,9 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   // Abstention, and a model of what is left.
   if (progress) progress(0.9, "comparing the candidates");
   d.verdict = verdict_of(d, limits);
-  if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
-    d.unnamed = unnamed_part(d.finding.frame, d.finding.selection, d.finding.proof, limits);
+  if (d.verdict != Verdict::adequate) {
+    d.left = left_to_tables(d.finding.frame, d.finding.selection, d.finding.proof, limits,
+                            d.verdict != Verdict::explained);
   }
   d.undecided = undecidable(d.finding.frame, d.finding.selection, d.verdict, limits);
   if (d.undecided) d.verdict = Verdict::undecided;

@@ -6,6 +6,7 @@
 #include "diagnosis/nested_proof.hpp"
 #include "diagnosis/ripple_finding.hpp"
 #include "diagnosis/undecided.hpp"
+#include "diagnosis/unnamed.hpp"
 
 namespace flexspline::studies {
 
@@ -18,7 +19,7 @@ struct Decision {
   std::optional<NestedProof> nested;            ///< by outer fold
   std::vector<DiagnosedSeries> taken_away;      ///< recordings that were judged once
   Verdict verdict = Verdict::undecided;
-  std::optional<UnnamedPart> unnamed;    ///< what is left as a table
+  LeftToTables left;
   std::optional<Undecidable> undecided;  ///< why no verdict stands
   std::vector<std::string> notes;
 };

@@ -9,7 +9,6 @@
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
-#include "diagnosis/unnamed.hpp"
 #include "diagnosis/velocity_lag.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -46,12 +45,12 @@ std::vector<std::string> remarks_on(const Selection& s) {
 }
 
 // causes: those of the selection, in its order.
-void weigh_what_is_left(const Frame& frame, const Selection& s, std::vector<Cause>& causes) {
-  const auto left = left_to_tables(frame, s.final);
+void weigh_what_is_left(const Selection& s, const LeftToTables& left, std::vector<Cause>& causes) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     double most = 0.0;
-    for (Equation at : s.accepted[i].trial.cause.form->at)
-      most = std::max(most, left[index_of(at)]);
+    for (Equation at : s.accepted[i].trial.cause.form->at) {
+      most = std::max(most, left.evidence[index_of(at)]);
+    }
     causes[i].evidence.left_over = most / (0.5 * s.accepted[i].trial.gain);
   }
 }
@@ -102,14 +101,14 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.series = decision.taken_away;
   append(d.series, spelled_series(frame, selection, proof));
   d.causes = spelled_causes(frame, selection, proof);
-  weigh_what_is_left(frame, selection, d.causes);
+  weigh_what_is_left(selection, decision.left, d.causes);
   for (Cause& cause : d.causes) {
     if (decision.nested) cause.stability = stability_of(*decision.nested, cause);
   }
   d.mismatch = spelled_mismatch(frame, selection, limits);
   d.confusable = spelled_confusable(frame, selection);
   d.tried = spelled_trials(selection, limits);
-  d.unnamed = decision.unnamed;
+  d.unnamed = decision.left.part;
   if (decision.ripple) spell_ripple(frame, selection, *decision.ripple, d);
   judge_names(proof.holdout, d);
   name_in_units(d);

@@ -13,16 +13,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using estimators::SeparableBlock;
 using estimators::SeparableProblem;
-using estimators::ShapeBound;
-
-constexpr double kDifference = 1e-4;  // of a shape's range
-
-std::vector<double> starts_of(const std::vector<ShapeBound>& shapes) {
-  std::vector<double> q;
-  for (const ShapeBound& shape : shapes)
-    q.push_back(std::clamp(shape.start, shape.lower, shape.upper));
-  return q;
-}
 
 VectorXd residual_at(const SeparableBlock& block, const VectorXd& b) {
   return estimators::residual_of(block, b(block.index));
@@ -44,12 +34,6 @@ struct Wide {
   MatrixXd columns;
   std::vector<Index> index;
 };
-
-// A step by which a shape stays in its bounds; 0 where it is held.
-double step_of(const ShapeBound& bound, double q) {
-  const double step = kDifference * (bound.upper - bound.lower);
-  return q + step > bound.upper ? -step : step;
-}
 
 }  // namespace
 
@@ -73,7 +57,7 @@ Linearised::Linearised(const Frame& frame, const Findings& findings,
 }
 
 void Linearised::take(const ModelProblem& model, const VectorXd& b) {
-  const auto q = starts_of(model.shapes());
+  const auto q = estimators::starts_of(model.shapes());
   std::vector<Wide> wide;
   for (const SeparableBlock& block : model.assemble(q)) {
     WeightedRows rows(findings_.fit_weight[index_of(equations_[blocks_.size()])]);
@@ -85,7 +69,7 @@ void Linearised::take(const ModelProblem& model, const VectorXd& b) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     const Index at = b.size() + static_cast<Index>(i);
     lower_[at] = model.shapes()[i].lower - q[i];
-    const double step = step_of(model.shapes()[i], q[i]);
+    const double step = estimators::difference_step(model.shapes()[i], q[i]);
     if (step == 0.0) continue;
     auto moved_to = q;
     moved_to[i] += step;
@@ -188,7 +172,7 @@ class Linearised::Candidate {
   }
 
   void take_residuals(std::span<const double> s, std::vector<SeparableBlock>& blocks) const {
-    auto q = starts_of(model_->shapes());
+    auto q = estimators::starts_of(model_->shapes());
     std::ranges::copy(s, q.end() - std::ssize(s));
     const auto moved = model_->assemble(q);
     for (std::size_t e = 0; e < blocks.size(); ++e) blocks[e].target = residual_at(moved[e], b_);

@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace flexspline::studies {
 
 using Eigen::Index;
 
 namespace {
-constexpr Index kTogether = 8;       // columns: each waits for its own last row, not for another's
-constexpr double kSameStep = 1e-12;  // of itself: steps that differ by the rounding of times
+constexpr Index kTogether = 8;  // columns: each waits for its own last row, not for another's
+
+// Two steps differ by the rounding of the times that they are differences of.
+bool same_step(double a, double b, double time) {
+  return std::abs(a - b) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(time);
+}
+
 }  // namespace
 
 LowPass::LowPass(const Frame& frame, double time_constant)
@@ -19,12 +25,13 @@ LowPass::LowPass(const Frame& frame, double time_constant)
     now_[s.first] = 1.0, before_[s.first] = 0.0, kept_[s.first] = 0.0;
     double known = 0.0;
     for (Index r = s.first + 1; r < s.first + s.count; ++r) {
-      const double step = (frame.time[r] - frame.time[r - 1]) / time_constant;
-      if (std::abs(step - known) <= kSameStep * step) {
+      const double interval = frame.time[r] - frame.time[r - 1];
+      if (same_step(interval, known, frame.time[r])) {
         now_[r] = now_[r - 1], before_[r] = before_[r - 1], kept_[r] = kept_[r - 1];
         continue;
       }
-      known = step;
+      known = interval;
+      const double step = interval / time_constant;
       const double settled = -std::expm1(-step);
       const double mean = settled / step;
       now_[r] = 1.0 - mean;

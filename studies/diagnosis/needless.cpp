@@ -15,12 +15,7 @@ constexpr int kRefreshSteps = 8;
 constexpr int kRefineSteps = 12;
 
 double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
-  double rise = 0.0;
-  for (Equation equation : frame.equations) {
-    const std::size_t e = index_of(equation);
-    rise += (fit.sum_of_squares[e] - findings.fit.sum_of_squares[e]) / findings.noise[e].colour;
-  }
-  return rise;
+  return chi_square(frame, findings, fit) - chi_square(frame, findings, findings.fit);
 }
 
 bool stands_for(const Accepted& a, const Accepted& b) {

@@ -7,12 +7,6 @@ namespace {
 
 constexpr int kSteps = 12;
 
-double chi_square(const Frame& frame, const Findings& findings) {
-  double sum = 0.0;
-  for (Equation equation : frame.equations) sum += findings.chi_square(equation);
-  return sum;
-}
-
 // The cause without the shape that its form has beyond the one before it.
 ActiveCause plain(ActiveCause cause) {
   --cause.form;
@@ -38,7 +32,9 @@ Result<void> take_plain_forms(const Frame& frame, const Limits& limits, Selectio
     if (!fit) return tl::unexpected(fit.error());
     Findings simpler = s.final;
     simpler.fit = std::move(*fit);
-    if (chi_square(frame, simpler) - chi_square(frame, s.final) > limits.gain) continue;
+    if (chi_square(frame, simpler, simpler.fit) - chi_square(frame, s.final, s.final.fit) >
+        limits.gain)
+      continue;
     s.final = std::move(simpler);
     s.accepted[i].trial.cause = s.final.fit.model.causes.back();
     const auto at = s.accepted.begin() + static_cast<std::ptrdiff_t>(i);

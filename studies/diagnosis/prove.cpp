@@ -174,10 +174,8 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
 // What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
 bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
                        std::size_t cause) {
-  double chi_square = 0.0;
-  for (Equation equation : frame.equations) chi_square += s.final.chi_square(equation);
   const double gain = s.accepted[cause].trial.gain;
-  return gain > limits.half * (chi_square + gain);
+  return gain > limits.half * (chi_square(frame, s.final, s.final.fit) + gain);
 }
 
 // What explains the same signal nearly as well as a cause that fails on recordings held out, if it

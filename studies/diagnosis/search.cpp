@@ -14,8 +14,8 @@ constexpr int kBaselineSteps = 15;
 constexpr int kNoisePasses = 3;         // the noise is measured on a fit that it weights
 constexpr double kSmallestFall = 0.1;   // of chi square: a limit of 18 is not told from 18.1
 constexpr double kSmallestGain = 1e-5;  // of a sum of squares whose noise is not known
-constexpr double kMostGain = 1e-3;
-constexpr double kSettled = 0.02;  // change of a noise level, of itself
+constexpr double kMostGain = 1e-3;      // of a sum of squares, however much the noise is coloured
+constexpr double kSettled = 0.02;       // change of a noise level, of itself
 
 bool touches(const ActiveCause& cause, const std::vector<Equation>& equations) {
   return std::ranges::any_of(cause.form->at,
@@ -156,6 +156,15 @@ Result<void> fit_all(const Frame& frame, Findings& findings, int steps) {
   }
   findings.fit = std::move(whole);
   return {};
+}
+
+double chi_square(const Frame& frame, const Findings& findings, const ModelFit& fit) {
+  double sum = 0.0;
+  for (Equation equation : frame.equations) {
+    const std::size_t e = index_of(equation);
+    sum += fit.sum_of_squares[e] / findings.noise[e].colour;
+  }
+  return sum;
 }
 
 double excess(const Frame& frame, const Findings& findings, const ModelFit& fit) {

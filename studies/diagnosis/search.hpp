@@ -15,12 +15,6 @@ struct Findings {
   std::array<EquationNoise, 3> noise;
   PerEquation weight;      ///< of every usable row
   PerEquation fit_weight;  ///< of those that a fit looks at
-
-  /// Weighted sum of squares over the noise's colour: a chi square where only noise is left.
-  double chi_square(Equation equation) const {
-    const std::size_t e = index_of(equation);
-    return fit.sum_of_squares[e] / noise[e].colour;
-  }
 };
 
 /// A cause tried on top of the findings, shapes refined.
@@ -59,6 +53,9 @@ Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size
 /// Every cause and part of the baseline that is not yet in the model, best net gain first; one
 /// entry each. The same for any number of threads; 0: as many as the machine has.
 std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads = 0);
+
+/// Sums of squares of a fit over the noise's colour, all equations.
+double chi_square(const Frame& frame, const Findings& findings, const ModelFit& fit);
 
 /// Misfit beyond noise, in chi square, summed over the equations.
 double excess(const Frame& frame, const Findings& findings, const ModelFit& fit);

@@ -197,31 +197,30 @@ UnnamedPart spelled(const Frame& frame, const Findings& findings, const Found& f
   return part;
 }
 
-}  // namespace
-
-std::array<double, 3> left_to_tables(const Frame& frame, const Findings& findings) {
-  std::array<double, 3> gain{};
-  for (Equation equation : frame.equations) {
-    gain[index_of(equation)] = found_in(frame, findings, equation).best.fit.gain;
-  }
-  return gain;
+std::optional<UnnamedPart> part_of(const Frame& frame, const Selection& s, const Proof& proof,
+                                   const Limits& limits, const Found& found) {
+  const HoldoutProof h = proved(frame, s.final, proof, found);
+  const double taken =
+      std::sqrt(std::max(h.rmse_before * h.rmse_before - h.rmse_after * h.rmse_after, 0.0));
+  const double trifle = limits.trifle() * frame.largest_torque(found.equation);
+  if (!(h.ci95_upper < 1.0) || !(taken > trifle)) return std::nullopt;
+  return spelled(frame, s.final, found, h);
 }
 
-std::optional<UnnamedPart> unnamed_part(const Frame& frame, const Selection& s, const Proof& proof,
-                                        const Limits& limits) {
+}  // namespace
+
+LeftToTables left_to_tables(const Frame& frame, const Selection& s, const Proof& proof,
+                            const Limits& limits, bool remains) {
+  LeftToTables left;
   std::optional<Found> most;
   for (Equation equation : frame.equations) {
     Found found = found_in(frame, s.final, equation);
     if (found.best.candidate == nullptr) continue;
+    left.evidence[index_of(equation)] = found.best.fit.gain;
     if (!most || found.best.fit.gain > most->best.fit.gain) most = std::move(found);
   }
-  if (!most) return std::nullopt;
-  const HoldoutProof h = proved(frame, s.final, proof, *most);
-  const double taken =
-      std::sqrt(std::max(h.rmse_before * h.rmse_before - h.rmse_after * h.rmse_after, 0.0));
-  const double trifle = limits.trifle() * frame.largest_torque(most->equation);
-  if (!(h.ci95_upper < 1.0) || !(taken > trifle)) return std::nullopt;
-  return spelled(frame, s.final, *most, h);
+  if (remains && most) left.part = part_of(frame, s, proof, limits, *most);
+  return left;
 }
 
 }  // namespace flexspline::studies

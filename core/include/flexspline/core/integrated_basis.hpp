@@ -30,8 +30,8 @@ class IntegratedBasis {
   std::vector<std::array<double, 4>> pieces(std::span<const double> coefficients) const;
 
  private:
-  struct Quadratic {  // B_i on one interval: q0 + q1 d + q2 d^2, and I_i at its left end
-    double q0, q1, q2, start;
+  struct Quadratic {  // B_i on one interval: q0 + q1 d + q2 d^2
+    double q0, q1, q2;
   };
   const Quadratic& piece(std::size_t i, std::size_t interval) const {
     return table_[i * intervals_ + interval];

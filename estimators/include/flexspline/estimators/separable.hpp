@@ -45,6 +45,13 @@ struct ShapeBound {
   double upper = 0.0;
 };
 
+/// Where a fit starts: the start of each shape, or the bound that it lies beyond.
+std::vector<double> starts_of(const std::vector<ShapeBound>& shapes);
+
+/// Step of a one-sided difference at q that stays in the bounds, 1e-4 of the range; 0 where a shape
+/// is held.
+double difference_step(const ShapeBound& bound, double q);
+
 /// min over q in its bounds and b >= lower of sum_blocks ||y(q) - X(q) b||^2 (Golub and Pereyra
 /// 1973, with bounds on b). Blocks may come and go with q, b may not.
 struct SeparableProblem {

@@ -52,8 +52,8 @@ struct CauseEvidence {
   double delta_bic = kNotComputed;           ///< with it minus without it; negative favours it
   double ablation_ratio = kNotComputed;      ///< final model without it over final model, held out
   double placebo_ratio = kNotComputed;       ///< the best absent effect of as many parameters
-  /// What a table without a name finds beside it, over what the cause is worth, both in nats of
-  /// log evidence; the largest of its equations.
+  /// Log evidence of the best table without a name beside it over half of the chi square that rises
+  /// without the cause, nats both; the largest of its equations.
   double left_over = kNotComputed;
 };
 
