@@ -50,6 +50,15 @@ Result<std::vector<double>> parameter_values(const EffectRow& row, const EffectS
   return values;
 }
 
+bool sought_by_law(const EffectRow& row) {
+  using Role = ParameterSearch::Role;
+  const auto has = [&](Role role) {
+    return std::ranges::any_of(row.parameters,
+                               [&](const EffectParameter& p) { return p.search.role == role; });
+  };
+  return has(Role::linear) && !has(Role::none);
+}
+
 std::size_t state_count(const EffectRow& row, std::size_t parameters) {
   return row.states * (row.repeats ? parameters / row.parameters.size() : 1);
 }

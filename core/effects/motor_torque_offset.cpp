@@ -22,7 +22,8 @@ EffectRow describe_motor_torque_offset() {
                     "separation from a friction that differs between the directions, its "
                     "confounded with it while moving",
                 .source = "current sensors: 0.1 to 0.3 % of range",
-                .parameters = {{"offset", "Nm", -1e6, 1e6, 5e-3, "1 to 10 mNm of 3.8 Nm"}},
+                .parameters = {{"offset", "Nm", -1e6, 1e6, 5e-3, "1 to 10 mNm of 3.8 Nm",
+                                linear("what is recorded of a motor without a torque")}},
                 .rigs = {Rig::locked, Rig::free, Rig::servo},
                 .passive = false,
                 .active_because = "part of the motor, which drives"};

@@ -26,11 +26,16 @@ EffectRow describe_stribeck_friction() {
       .not_modelled = "frictional lag, presliding, dependence of ts on the time at rest",
       .source =
           "Stribeck (1902); Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30(7), 1994",
-      .parameters = {{"excess", "Nm", 0.0, 1e6, 0.018, "ts/tc = 1.1 to 1.5; 0 in some units (BAM)"},
-                     {"stribeck_speed", "rad/s", 1e-6, 1e4, 10.0, "1 to 30 rad/s at the motor"},
+      .parameters = {{"excess", "Nm", 0.0, 1e6, 0.018, "ts/tc = 1.1 to 1.5; 0 in some units (BAM)",
+                      linear("of the friction at rest over that in motion")},
+                     {"stribeck_speed", "rad/s", 1e-6, 1e4, 10.0, "1 to 30 rad/s at the motor",
+                      shape("at which the excess has fallen to 1/e", 0.003, 0.6, Scale::motor_speed,
+                            6)},
                      {"exponent", "1", 0.5, 4.0, 2.0,
-                      "Armstrong-Helouvry et al. (1994): 0.5 to 2; BAM fits up to 3"},
-                     {"smoothing", "rad/s", 1e-9, 100.0, 0.5, "0.2 to 1 rad/s at the motor"}},
+                      "Armstrong-Helouvry et al. (1994): 0.5 to 2; BAM fits up to 3",
+                      shape("of the speed", 0.5, 3.0)},
+                     {"smoothing", "rad/s", 1e-9, 100.0, 0.5, "0.2 to 1 rad/s at the motor",
+                      sign_width()}},
       .rigs = {Rig::locked, Rig::free, Rig::specimen, Rig::servo}};
   instantiate<Stribeck>(row);
   return row;

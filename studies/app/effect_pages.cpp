@@ -15,9 +15,9 @@ namespace {
 constexpr std::string_view kOrigin =
     "<!-- Written by `flexspline list effects --pages docs/effects`; change the row, not this. -->";
 
-std::string rigs_of(const EffectRow& row) {
+std::string rigs_of(const std::vector<Rig>& rigs) {
   std::string list;
-  for (const Rig rig : row.rigs) {
+  for (const Rig rig : rigs) {
     list += fmt::format("{}{}", list.empty() ? "" : ", ", name_of(rig));
   }
   return list;
@@ -33,6 +33,12 @@ std::string passivity_of(const EffectRow& row) {
   return row.passive ? "yes" : fmt::format("no: {}", row.active_because);
 }
 
+std::string sought_of(const EffectRow& row) {
+  if (!sought_by_law(row)) return {};
+  return fmt::format("| a diagnosis seeks it | by this law{} |\n",
+                     row.sought_on.empty() ? "" : ", " + rigs_of(row.sought_on));
+}
+
 std::string facts(const EffectRow& row) {
   const auto yes = [](bool is) { return is ? "yes" : "no"; };
   return fmt::format(
@@ -42,9 +48,9 @@ std::string facts(const EffectRow& row) {
       "| rigs | {} |\n"
       "| memory | {} |\n"
       "| passive: makes no energy over a closed cycle | {} |\n"
-      "| rate independent | {} |\n",
-      site_in_words(row.site), row.coordinate, rigs_of(row), memory_of(row), passivity_of(row),
-      yes(row.rate_independent));
+      "| rate independent | {} |\n{}",
+      site_in_words(row.site), row.coordinate, rigs_of(row.rigs), memory_of(row),
+      passivity_of(row), yes(row.rate_independent), sought_of(row));
 }
 
 std::string parameter_table(const EffectRow& row) {

@@ -2,7 +2,23 @@
 
 #include <algorithm>
 
+#include "diagnosis/cause_by_law.hpp"
+
 namespace flexspline::studies {
+
+std::span<const CauseRow> causes() {
+  static const std::vector<CauseRow> all = [] {
+    const auto written = written_causes();
+    std::vector<CauseRow> rows(written.begin(), written.end());
+    for (const EffectRow& effect : effects()) {
+      if (std::ranges::find(written, effect.id, &CauseRow::id) != written.end()) continue;
+      if (auto row = cause_by_law(effect)) rows.push_back(*std::move(row));
+    }
+    std::ranges::sort(rows, {}, &CauseRow::id);
+    return rows;
+  }();
+  return all;
+}
 
 Equation first_equation(const Frame& frame, const CauseForm& form) {
   for (Equation e : form.at) {

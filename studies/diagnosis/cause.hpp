@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -52,12 +54,13 @@ using Columns = std::vector<Eigen::ArrayXd>;
 /// equations it acts on, each an addition to what the equation predicts; or a change of the frame
 /// (its angles, its torque) by the shapes alone.
 struct CauseForm {
-  std::string_view equation;  ///< in words
+  std::string equation;  ///< in words
   std::vector<Rig> rigs;
   std::vector<Equation> at;
-  std::vector<Shape> (*shapes)(const Frame&) = nullptr;
-  std::vector<Term> (*terms)(const Frame&) = nullptr;  ///< one a column
-  Columns (*columns)(Equation, const Frame&, const Reference&, std::span<const double>) = nullptr;
+  std::function<std::vector<Shape>(const Frame&)> shapes{};
+  std::function<std::vector<Term>(const Frame&)> terms{};  ///< one a column
+  std::function<Columns(Equation, const Frame&, const Reference&, std::span<const double>)>
+      columns{};
   void (*transform)(Frame&, std::span<const double>) = nullptr;
   /// Start of the shapes of a transform, from the recordings; without it the grid is searched.
   std::vector<double> (*start)(const Frame&) = nullptr;
@@ -65,11 +68,12 @@ struct CauseForm {
   bool friction = false;     ///< resists the motion across the transmission, beside g^-1
   bool rescales = false;     ///< a channel, by 1 + a or 1 - a, and does nothing else
   bool extends = false;      ///< the form before it in the row, by its last shape
-  bool (*where)(const Frame&) = nullptr;  ///< what the recordings must be like; nullptr: anything
+  /// What the recordings must be like; without it anything.
+  std::function<bool(const Frame&)> where{};
   /// Whether it ripples this many times a turn of the motor in steady strokes.
   bool (*ripples)(double order) = nullptr;
   /// What it is in a model file, by the catalogue of effects.
-  Counterpart (*counterpart)(const FittedCause&) = nullptr;
+  std::function<Counterpart(const FittedCause&)> counterpart{};
   std::string_view no_counterpart = {};  ///< why there is none
 };
 
@@ -92,8 +96,12 @@ struct CauseRow {
   bool of_baseline() const { return part.has_value(); }
 };
 
-/// Every cause, one file each in studies/diagnosis/causes.
+/// Every cause, by id: those that have a file of their own, and every other effect of the
+/// catalogue that is sought by its law.
 std::span<const CauseRow> causes();
+
+/// Causes that are no effect's own law, or more than it, one file each in studies/diagnosis/causes.
+std::span<const CauseRow> written_causes();
 
 /// What the baseline has where recordings ask for it, one file each in studies/diagnosis/parts.
 std::span<const CauseRow> baseline_parts();

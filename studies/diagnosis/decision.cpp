@@ -61,7 +61,7 @@ void prove_in_folds(const RecordingSet& all, const Limits& limits,
 bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& limits) {
   const double own =
       std::sqrt(std::max(h.rmse_after * h.rmse_after - h.noise_floor * h.noise_floor, 0.0));
-  return h.over_noise() * h.over_noise() > limits.as_noise &&
+  return h.over_noise() * h.over_noise() > limits.as_noise() &&
          own > limits.trifle() * frame.torque_range;
 }
 

@@ -98,8 +98,8 @@ bool explains_enough(const Frame& frame, const Selection& s, const Limits& limit
   if (too_many(s, limits)) return false;
   const Balance b = balance_of(frame, s);
   const double left = s.after.empty() ? 0.0 : s.after.front().statistic;
-  if (left > limits.gain && b.taken < limits.explained * (b.taken + b.ordered)) return false;
-  return s.removed >= limits.explained || worst_misfit(frame, s.final) < limits.as_noise ||
+  if (left > limits.gain && b.taken < limits.explained() * (b.taken + b.ordered)) return false;
+  return s.removed >= limits.explained() || worst_misfit(frame, s.final) < limits.as_noise() ||
          b.taken > limits.half * b.before;
 }
 

@@ -19,12 +19,12 @@ constexpr int kSteps = 8;
 // What a cause has to lower the error on recordings held out to, over that without it.
 double most_of(const Limits& limits) { return std::sqrt(1.0 - limits.held_out_share); }
 
-// The cause that does worst on recordings held out.
+// The cause that does worst on recordings held out; one that could not be judged there is not proved.
 std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
-    if (!(proof.cause_ratio[i] >= most_of(limits))) continue;
-    if (!worst || proof.cause_ratio[i] > proof.cause_ratio[*worst]) worst = i;
+    if (proof.cause_ratio[i] < most_of(limits)) continue;
+    if (!worst || !(proof.cause_ratio[i] <= proof.cause_ratio[*worst])) worst = i;
   }
   return worst;
 }

@@ -32,7 +32,7 @@ RippleName name_of(const Frame& frame, const Ripple& ripple) {
 std::optional<RippleName> proved_name(const Frame& frame, const Selection& s, const Limits& limits,
                                       const Ripple& ripple) {
   RippleName name = name_of(frame, ripple);
-  if (name.row == nullptr || ripple.share < limits.ripple_share) return std::nullopt;
+  if (name.row == nullptr || ripple.share < limits.quarter) return std::nullopt;
   auto proof = prove_ripple(frame, s.final);
   if (!proof || proof->statistic < limits.named_gain) return std::nullopt;
   name.proof = std::move(*proof);

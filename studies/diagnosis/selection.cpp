@@ -46,7 +46,7 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
     const bool alike =
-        trials[i].gain > limits.alike * accepted.trial.gain && admissible(trials[i], limits);
+        trials[i].gain > limits.alike() * accepted.trial.gain && admissible(trials[i], limits);
     (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
   }
   return accepted;
@@ -154,7 +154,7 @@ Result<void> keep_the_main(const Frame& frame, const Limits& limits, Selection& 
     const auto fitted = fit_again(frame, fewer);
     if (!fitted) return fitted;
     judge(frame, fewer);
-    if (fewer.removed < limits.alike * removed) return {};
+    if (fewer.removed < limits.alike() * removed) return {};
   }
   s = std::move(fewer);
   return {};
@@ -171,7 +171,7 @@ Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
     judge(frame, s);
   }
   s.remainder = !stands || s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
-                worst_misfit(frame, s.final) > limits.as_noise;
+                worst_misfit(frame, s.final) > limits.as_noise();
   return {};
 }
 

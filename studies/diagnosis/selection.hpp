@@ -10,20 +10,18 @@
 namespace flexspline::studies {
 
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
-/// from: docs/diagnosis.md and docs/decisions/0026.
+/// from: docs/diagnosis.md and docs/decisions/0029.
 struct Limits {
   double gain = 18.0;        ///< least net gain of a cause, and statistic of a coordinate that says
                              ///< something is left
   double named_gain = 80.0;  ///< least net gain of a cause that is named, or stands in a shadow
   double interest = 0.008;   ///< least size of a cause, share of the largest torque
   double half = 0.5;         ///< the larger part: of a gain, a misfit, a torque or its variance
-  double alike = 0.9;        ///< of another's gain: as good as that
-  double tenth = 0.1;        ///< of a residual, or of what could stand for the same: no trifle
-  double shadow = 0.03;      ///< gain over that of a larger cause of the same equation
+  double quarter = 0.25;     ///< what may be left of a misfit that is explained; least share of the
+                             ///< fast changes in steady strokes that is named
+  double tenth = 0.1;    ///< of a residual, a gain, or of what could stand for the same: no trifle
+  double shadow = 0.03;  ///< gain over that of a larger cause of the same equation
   double held_out_share = 0.04;  ///< least share that a cause explains of the mean square held out
-  double explained = 0.75;       ///< share of the misfit that the causes have to remove
-  double as_noise = 2.0;       ///< mean square over the noise's: the model's own error is as large
-  double ripple_share = 0.25;  ///< least share of the fast changes in steady strokes that is named
   std::size_t causes = 4;     ///< more together, or as many where something is left, are a stand-in
                               ///< for something without a name
   std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most
@@ -31,7 +29,13 @@ struct Limits {
   unsigned threads = 0;  ///< 0: as many as the machine has
 
   /// Rms share of the largest torque below which an error is no matter: a quarter of a peak.
-  double trifle() const { return 0.25 * interest; }
+  double trifle() const { return quarter * interest; }
+  /// Share of another's gain: as good as that.
+  double alike() const { return 1.0 - tenth; }
+  /// Share of the misfit that the causes have to remove.
+  double explained() const { return 1.0 - quarter; }
+  /// Mean square over the noise's from which noise is the smaller part.
+  double as_noise() const { return 1.0 / half; }
 };
 
 /// A cause that was accepted, with the others that did nearly as well.

@@ -39,14 +39,11 @@ std::vector<Rule> rules() {
       {"all rules", [](Limits&) {}},
       {"named_gain", [](Limits& l) { l.named_gain = l.gain; }},
       {"half", [](Limits& l) { l.half = kNever; }},
-      {"alike", [](Limits& l) { l.alike = 1.0; }},
       {"tenth", [](Limits& l) { l.tenth = l.shadow; }},
       {"shadow", [](Limits& l) { l.shadow = l.tenth = 0.0; }},
-      {"explained", [](Limits& l) { l.explained = 0.0; }},
-      {"as_noise", [](Limits& l) { l.as_noise = kNever; }},
+      {"quarter", [](Limits& l) { l.quarter = 1.0; }},
       {"held_out_share", [](Limits& l) { l.held_out_share = 0.0; }},
       {"causes", [](Limits& l) { l.causes = 99; }},
-      {"ripple_share", [](Limits& l) { l.ripple_share = kNever; }},
       {"incidents", [](Limits& l) { l.incidents = 0; }},
   };
 }

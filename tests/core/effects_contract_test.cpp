@@ -1,6 +1,7 @@
 // What every effect of the catalogue promises.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -88,6 +89,67 @@ TEST_P(EveryEffect, IsThereForEveryScalar) {
   EXPECT_EQ(row().real.rate != nullptr, memory);
   EXPECT_EQ(row().dual.rate != nullptr, memory);
   EXPECT_EQ(row().complex.rate != nullptr, memory);
+}
+
+using Role = ParameterSearch::Role;
+
+std::size_t count(const EffectRow& row, Role role) {
+  return static_cast<std::size_t>(std::ranges::count(
+      row.parameters, role, [](const EffectParameter& p) { return p.search.role; }));
+}
+
+TEST_P(EveryEffect, SaysOfEveryParameterHowItIsSoughtOrOfNone) {
+  const std::size_t none = count(row(), Role::none);
+  EXPECT_TRUE(none == 0 || none == row().parameters.size());
+  EXPECT_EQ(sought_by_law(row()), none == 0);
+  EXPECT_LE(count(row(), Role::sign_width), 1U);
+  if (count(row(), Role::phase) > 0) {
+    EXPECT_EQ(count(row(), Role::phase), 1U);
+    EXPECT_EQ(count(row(), Role::linear), 1U) << "an amplitude to the phase";
+  }
+  for (const EffectParameter& one : row().parameters) {
+    if (one.search.role != Role::shape) continue;
+    EXPECT_GT(one.search.lower, 0.0) << one.name;
+    EXPECT_LT(one.search.lower, one.search.upper) << one.name;
+    EXPECT_FALSE(one.search.meaning.empty()) << one.name;
+  }
+  for (const Rig rig : row().sought_on) EXPECT_THAT(row().rigs, testing::Contains(rig));
+}
+
+std::vector<double> with(const EffectRow& row, std::vector<double> values, Role role,
+                         double value) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (row.parameters[k].search.role == role) values[k] = value;
+  }
+  return values;
+}
+
+// At every step of a path, memory included, twice the linear parameters are twice the term.
+TEST_P(EveryEffect, IsLinearInWhatItSaysItIs) {
+  if (!sought_by_law(row())) GTEST_SKIP() << "is not sought by its law";
+  const auto path = drive_path(1.0, 400, 1);
+  const auto along = [&](const std::vector<double>& values) {
+    EffectSpec spec{std::string(row().id), {}};
+    for (std::size_t k = 0; k < values.size(); ++k)
+      spec.parameters.emplace_back(row().parameters[k].name, values[k]);
+    return terms_along(row(), spec, path).value();
+  };
+  std::vector<double> values;
+  for (const EffectParameter& one : row().parameters) values.push_back(one.nominal);
+  const auto once = along(values);
+  std::vector<double> doubled = values;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (row().parameters[k].search.role == Role::linear) doubled[k] *= 2.0;
+  const auto twice = along(doubled);
+  const auto sine = along(with(row(), values, Role::phase, 0.0));
+  const auto cosine = along(with(row(), values, Role::phase, std::numbers::pi / 2.0));
+  const auto turned = along(with(row(), values, Role::phase, 0.7));
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    EXPECT_NEAR(twice[k], 2.0 * once[k], 1e-12 * largest(once));
+    if (count(row(), Role::phase) == 0) continue;
+    EXPECT_NEAR(turned[k], std::cos(0.7) * sine[k] + std::sin(0.7) * cosine[k],
+                1e-12 * (largest(sine) + largest(cosine)));
+  }
 }
 
 // Offsets are an instrument's or, where a torque is one, not passive.

@@ -65,9 +65,9 @@ std::vector<Term> terms(const Frame&) {
 }  // namespace
 
 CauseRow describe_nonlinear_viscous_friction() {
-  const auto form = [](std::string_view equation, std::vector<Rig> rigs, Equation at, auto shapes,
+  const auto form = [](std::string equation, std::vector<Rig> rigs, Equation at, auto shapes,
                        auto columns, auto counterpart) {
-    return CauseForm{.equation = equation,
+    return CauseForm{.equation = std::move(equation),
                      .rigs = std::move(rigs),
                      .at = {at},
                      .shapes = shapes,

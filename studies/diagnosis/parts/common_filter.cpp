@@ -9,7 +9,7 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
-constexpr std::string_view kEquation = "T tau' + tau = tau(x + T x')";
+constexpr const char* kEquation = "T tau' + tau = tau(x + T x')";
 constexpr std::string_view kOfTheBench = "a filter of the bench is no part of the gear";
 
 std::vector<Shape> time_constant(const Frame& f) {

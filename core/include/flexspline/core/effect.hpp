@@ -8,6 +8,7 @@
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/instant.hpp"
 #include "flexspline/core/model_spec.hpp"
+#include "flexspline/core/parameter_search.hpp"
 #include "flexspline/core/recording.hpp"
 #include "flexspline/core/scalar.hpp"
 
@@ -43,6 +44,7 @@ struct EffectParameter {
   double upper;
   double nominal;  ///< for a unit of 226 Nm and ratio 50
   std::string_view source;
+  ParameterSearch search{};
 };
 
 /// The functions of an effect for one scalar. states: the effect's own memory, empty for a static
@@ -69,7 +71,9 @@ struct EffectRow {
   std::string_view not_modelled;
   std::string_view source;
   std::vector<EffectParameter> parameters;
-  std::vector<Rig> rigs;   ///< where it exists
+  std::vector<Rig> rigs;  ///< where it exists
+  /// Where a diagnosis seeks it by its law, if its parameters say how. Empty: wherever it exists.
+  std::vector<Rig> sought_on = {};
   bool repeats = false;    ///< the parameters and states come in groups (elements)
   std::size_t states = 0;  ///< of one element
   bool passive = true;     ///< makes no energy over a closed cycle
@@ -105,6 +109,9 @@ void instantiate(EffectRow& row) {
   row.complex = functions_of<Law, Complex>();
   row.traced = functions_of<Law, Traced>();
 }
+
+/// Whether every parameter says how it is found, and one of them is linear.
+bool sought_by_law(const EffectRow& row);
 
 /// Every effect, one file each in core/effects.
 std::span<const EffectRow> effects();

@@ -159,8 +159,7 @@ enum class HiddenClass { named, variant, unknown, incident };
 
 HiddenClass hidden_class(std::string_view id);
 
-/// A row of the catalogue of concealable effects, one file each in data/bench/hidden. Ids and
-/// coordinates are those of diagnoses.
+/// A row of the catalogue of concealable effects. Ids and coordinates are those of diagnoses.
 struct HiddenRow {
   std::string_view id;
   std::string_view coordinate;
@@ -168,14 +167,19 @@ struct HiddenRow {
   HiddenSite site = HiddenSite::transmission;
   std::vector<Rig> rigs;
   bool dissipates = false;  ///< what it adds takes energy from every closed cycle
-  HiddenLaw (*make)(const HiddenScale& scale, double amount) = nullptr;
+  std::function<HiddenLaw(const HiddenScale& scale, double amount)> make{};
   bool joint = false;                     ///< a joint that travels shows it too
   std::vector<std::string_view> names{};  ///< of a variant: the right ones
 
   bool shows_on(BenchKind kind) const;
 };
 
+/// Every effect that can be concealed: those with a file of their own, in other forms than the
+/// catalogue's, and every other effect of the catalogue that is sought by its law, as it stands.
 std::span<const HiddenRow> hidden_effects();
+
+/// One file each in data/bench/hidden.
+std::span<const HiddenRow> written_hidden_effects();
 
 /// A way in which sound benches differ, of which nothing is left out: the right answer is as if it
 /// were not there. One file each in data/bench/disturbances; apply draws its own amount from the
