@@ -50,6 +50,9 @@ ShownCause parse_cause(const json& from) {
   cause.probability = number_in(from, "probability");
   cause.size_fraction = number_in(from, "size_fraction");
   cause.size = number_in(from, "size");
+  const std::vector<double> sizes = numbers_in(from, "size_ci95");
+  cause.size_lower = element(sizes, 0);
+  cause.size_upper = element(sizes, 1);
   cause.unit = text_in(from, "unit");
   cause.size_of = text_in(from, "size_of");
   cause.alternatives = texts_in(from, "alternatives");

@@ -58,6 +58,20 @@ HiddenFinding finding(const HiddenSizing& sizing, const HiddenScale& scale) {
           std::move(law.place)};
 }
 
+/// What a channel reads without a torque: the effect's offset, and what the bench's own zero is off
+/// by.
+void add_own_zeros(const HiddenNuisances& n, HiddenAnswer& answer) {
+  for (HiddenFinding& found : answer.effects) {
+    const HiddenSite site = (*find_hidden_effect(found.id))->site;
+    double own = 0.0;
+    if (site == HiddenSite::torque_sensor) own = n.torque_offset * answer.noise_std;
+    if (site == HiddenSite::motor_sensor) own = n.motor_torque_offset * answer.motor_noise_std;
+    for (HiddenParameter& one : found.parameters) {
+      if (one.name == "offset") one.value += own;
+    }
+  }
+}
+
 void add_recordings(HiddenDataset& data, const HiddenBench& bench,
                     const std::vector<HiddenSession>& sessions,
                     const std::vector<HiddenSignals>& runs) {
@@ -96,6 +110,7 @@ Result<HiddenDataset> run_hidden_bench(const HiddenBench& bench,
   data.answer.peak_motor_torque = scale.motor_torque;
   data.answer.noise_std = bench.nuisances.torque_noise * scale.torque;
   data.answer.motor_noise_std = bench.nuisances.torque_noise * scale.motor_torque;
+  add_own_zeros(bench.nuisances, data.answer);
   const std::vector<HiddenSignals> runs = run_sessions(bench, sessions, scale, amounts);
   if (auto error = not_finite(sessions, runs)) return tl::unexpected(std::move(*error));
   add_recordings(data, bench, sessions, runs);

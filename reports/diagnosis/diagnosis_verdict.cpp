@@ -49,12 +49,14 @@ std::string baseline_sentence(const DiagnosisView& view) {
 Table causes_table(const DiagnosisView& view) {
   Table table{
       "causes",
-      "Missing physics, largest first. The size is the largest contribution, in percent "
-      "of the largest torque; the probability is that the name is right, "
+      "Missing physics, largest first. The size is the largest contribution, with its 95 % "
+      "interval, and in percent of the largest torque; the probability is that the name is right, "
       "calibrated on simulated cases; the hold-out ratio is the misfit with it, beside all the "
       "others, over the misfit without it, cross-validated, selection not nested.",
       {{"missing", "", 3},
        {"size", "", 3},
+       {"from", "", 3},
+       {"to", "", 3},
        {"unit", "", 3},
        {"of the largest torque", "%", 2},
        {"probability", "", 2},
@@ -66,8 +68,9 @@ Table causes_table(const DiagnosisView& view) {
     for (const std::string& one : cause.alternatives) {
       others += (others.empty() ? "" : ", ") + words(one);
     }
-    table.rows.push_back({words(cause.effect), cause.size, cause.unit, 100.0 * cause.size_fraction,
-                          cause.probability, cause.holdout_ratio, others.empty() ? "–" : others});
+    table.rows.push_back({words(cause.effect), cause.size, cause.size_lower, cause.size_upper,
+                          cause.unit, 100.0 * cause.size_fraction, cause.probability,
+                          cause.holdout_ratio, others.empty() ? "–" : others});
   }
   return without_empty_columns(std::move(table));
 }

@@ -99,6 +99,17 @@ Eigen::VectorXd CauseSpread::slope(const Free& parameter) const {
   return all;
 }
 
+Eigen::VectorXd CauseSpread::weighted_residual() const {
+  Eigen::VectorXd all(frame_.rows() * static_cast<Index>(frame_.equations.size()));
+  Index at = 0;
+  for (Equation equation : frame_.equations) {
+    const std::size_t e = index_of(equation);
+    all.segment(at, frame_.rows()) = (findings_.fit.residual[e] * weight_[e]).matrix();
+    at += frame_.rows();
+  }
+  return all;
+}
+
 void CauseSpread::solve() {
   const auto count = static_cast<Index>(free_.size());
   Eigen::MatrixXd jacobian(frame_.rows() * static_cast<Index>(frame_.equations.size()), count);
@@ -108,13 +119,38 @@ void CauseSpread::solve() {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobian.transpose() * jacobian);
   const Eigen::VectorXd inverse = eigen.eigenvalues().cwiseMax(kUntold).cwiseInverse();
   const Eigen::MatrixXd& vectors = eigen.eigenvectors();
-  std_ = (vectors.cwiseAbs2() * inverse).cwiseSqrt().cwiseQuotient(norm);
+  const auto unscaled = norm.cwiseInverse().asDiagonal();
+  by_noise_ = unscaled * vectors * inverse.cwiseSqrt().asDiagonal();
+  apart_ = jackknife(jacobian, weighted_residual(), pieces_of(frame_));
+  apart_.moves = unscaled * apart_.moves;
+  told_.assign(free_.size(), true);
   for (Index m = 0; m < count; ++m) {
     if (eigen.eigenvalues()[m] > kUntold) continue;
     for (Index k = 0; k < count; ++k) {
-      if (std::abs(vectors(k, m)) > 0.1) std_[k] = kNotComputed;
+      if (std::abs(vectors(k, m)) > 0.1) told_[static_cast<std::size_t>(k)] = false;
     }
   }
+}
+
+Spread CauseSpread::spread_of(const Eigen::VectorXd& slopes) const {
+  for (std::size_t k = 0; k < told_.size(); ++k) {
+    if (!told_[k] && slopes[static_cast<Index>(k)] != 0.0) return {};
+  }
+  const double by_noise = (by_noise_.transpose() * slopes).norm();
+  const double apart = (apart_.moves.transpose() * slopes).norm();
+  return {std::max(by_noise, apart), std::max(kNormal95 * by_noise, apart_.quantile * apart)};
+}
+
+Spread CauseSpread::size(std::size_t cause,
+                         const std::function<double(const DriveModel&)>& size_in) const {
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(std::ssize(free_));
+  const double now = size_in(findings_.fit.model);
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const Free& f = free_[k];
+    if (f.baseline || f.cause != cause) continue;
+    slopes[static_cast<Index>(k)] = (size_in(moved(f)) - now) / f.step;
+  }
+  return spread_of(slopes);
 }
 
 void CauseSpread::attach_spread(bool shape, std::size_t cause, Index index,
@@ -122,10 +158,12 @@ void CauseSpread::attach_spread(bool shape, std::size_t cause, Index index,
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const Free& f = free_[k];
     if (f.baseline || f.shape != shape || f.cause != cause || f.index != index) continue;
-    p.std = std_[static_cast<Index>(k)];
+    const Spread spread =
+        spread_of(Eigen::VectorXd::Unit(std::ssize(free_), static_cast<Index>(k)));
+    p.std = spread.std;
     if (std::isfinite(p.std)) {
-      p.ci95_lower = p.value - kNormal95 * p.std;
-      p.ci95_upper = p.value + kNormal95 * p.std;
+      p.ci95_lower = p.value - spread.half;
+      p.ci95_upper = p.value + spread.half;
     } else {
       p.no_interval = "not identifiable beside the others on these recordings";
     }

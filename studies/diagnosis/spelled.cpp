@@ -41,10 +41,10 @@ struct SizeOf {
 
 // The largest contribution of a cause of the final model over the largest torque of the first
 // equation that it acts on.
-SizeOf size_of(const Frame& frame, const Findings& final, std::size_t index) {
-  const Equation equation = first_equation(frame, *final.fit.model.causes[index].form);
-  const ArrayXd part =
-      contribution(frame, final.fit.model, final.reference, index, equation) * frame.usable;
+SizeOf size_of(const Frame& frame, const DriveModel& model, const Reference& reference,
+               std::size_t index) {
+  const Equation equation = first_equation(frame, *model.causes[index].form);
+  const ArrayXd part = contribution(frame, model, reference, index, equation) * frame.usable;
   const double size = part.abs().maxCoeff();
   return {size / frame.largest_torque(equation), size,
           equation == Equation::motor ? "the largest motor torque"
@@ -177,9 +177,14 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     const std::size_t at = s.immaterial.size() + i;
     Cause cause;
     cause.effect = a.trial.cause.row->id;
-    const SizeOf size = size_of(frame, s.final, at);
+    const SizeOf size = size_of(frame, s.final.fit.model, s.final.reference, at);
+    const Spread sizes = spread.size(at, [&](const DriveModel& model) {
+      return size_of(frame, model, s.final.reference, at).size;
+    });
     cause.size_fraction = size.fraction;
     cause.size = size.size;
+    cause.size_ci95_lower = size.size - std::min(sizes.half, size.size);
+    cause.size_ci95_upper = size.size + sizes.half;
     cause.unit = "Nm";
     cause.size_of = size.of;
     cause.equation = a.trial.cause.form->equation;

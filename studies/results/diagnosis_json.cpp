@@ -60,12 +60,14 @@ std::pair<double, std::string> shown_unit(const Diagnosis& diagnosis, std::strin
   return {1.0, unit};
 }
 
+/// [lower, upper], or null where there is none.
+Json interval_json(double lower, double upper) {
+  return std::isfinite(lower) && std::isfinite(upper) ? Json::array({lower, upper}) : Json(nullptr);
+}
+
 Json parameter_json(const Diagnosis& diagnosis, const CauseParameter& parameter) {
   const auto [factor, unit] = shown_unit(diagnosis, parameter.unit);
-  const Json interval = std::isfinite(parameter.ci95_lower)
-                            ? Json::array({number(factor * parameter.ci95_lower),
-                                           number(factor * parameter.ci95_upper)})
-                            : Json(nullptr);
+  const Json interval = interval_json(factor * parameter.ci95_lower, factor * parameter.ci95_upper);
   Json json = {{"name", parameter.name},
                {"value", number(factor * parameter.value)},
                {"std", number(factor * parameter.std)},
@@ -93,6 +95,7 @@ Json cause_json(const Diagnosis& diagnosis, const Cause& cause) {
           {"probability", number(cause.probability)},
           {"size_fraction", number(cause.size_fraction)},
           {"size", number(cause.size)},
+          {"size_ci95", interval_json(cause.size_ci95_lower, cause.size_ci95_upper)},
           {"unit", cause.unit},
           {"size_of", cause.size_of},
           {"equation", cause.equation},

@@ -73,7 +73,6 @@ bool is_left(Verdict verdict) {
 
 /// Intervals of the parameters that a right cause and the truth have in common.
 void score_intervals(const ConcealedAnswer& answer, const Cause& cause, CaseScore& score) {
-  constexpr double kNormal = 1.959963984540054;
   for (const data::HiddenFinding& effect : answer.effects) {
     if (effect.id != cause.effect) continue;
     for (const CauseParameter& found : cause.parameters) {
@@ -81,8 +80,7 @@ void score_intervals(const ConcealedAnswer& answer, const Cause& cause, CaseScor
       const auto truth = std::ranges::find(effect.parameters, key,
                                            [](const auto& parameter) { return key_of(parameter); });
       if (truth == effect.parameters.end() || !std::isfinite(found.std)) continue;
-      score.intervals.push_back({effect.id + " " + key, found.value - kNormal * found.std,
-                                 found.value + kNormal * found.std,
+      score.intervals.push_back({effect.id + " " + key, found.ci95_lower, found.ci95_upper,
                                  std::copysign(truth->value, found.value)});
     }
   }

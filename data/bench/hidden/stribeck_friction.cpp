@@ -7,7 +7,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const double excess = amount * scale.friction_torque();
   const double stribeck = scale.draw("stribeck_friction", 0, 0.1, 0.25) * scale.friction_speed();
   HiddenLaw law;
-  law.parameters = {{"static_excess", excess, "Nm"}, {"stribeck_speed", stribeck, "rad/s"}};
+  law.parameters = {{"static_excess", excess, "Nm"}, {"half_excess_speed", stribeck, "rad/s"}};
   put_friction(law, scale, [=](double speed, double) {
     const double ratio = speed / stribeck;
     return excess * soft_sign(speed, 0.1 * stribeck) / (1.0 + ratio * ratio);

@@ -27,6 +27,8 @@ struct ShownCause {
   double probability = kAbsent;
   double size_fraction = kAbsent;
   double size = kAbsent;
+  double size_lower = kAbsent;  ///< of its 95 % interval
+  double size_upper = kAbsent;
   std::string unit, size_of;
   std::vector<ShownCauseParameter> parameters;
   std::vector<std::string> alternatives;

@@ -35,7 +35,8 @@ struct Mismatch {
 struct CauseParameter {
   std::string name;
   double value = kNotComputed;
-  double std = kNotComputed;  ///< with all other parameters free, the residual's colour counted
+  double std = kNotComputed;  ///< with all other parameters free; the larger of noise's and the
+                              ///< jackknife's over recordings
   std::string unit;
   std::string meaning{};
   double ci95_lower = kNotComputed;
@@ -65,6 +66,8 @@ struct Cause {
   double probability = kNotComputed;
   double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
   double size = kNotComputed;           ///< the same, SI
+  double size_ci95_lower = kNotComputed;
+  double size_ci95_upper = kNotComputed;
   std::string unit{};                   ///< of size: Nm, or N on a specimen that moves along a line
   std::string size_of{};                ///< which torque size_fraction is a fraction of
   std::string equation;
