@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -153,6 +154,14 @@ Spread CauseSpread::size(std::size_t cause,
   return spread_of(slopes);
 }
 
+std::pair<double, double> CauseSpread::bounds_of(const Free& parameter) const {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const ActiveCause& cause = findings_.fit.model.causes[parameter.cause];
+  if (!parameter.shape) return {cause.form->nonnegative ? 0.0 : -kNone, kNone};
+  const Shape shape = cause.form->shapes(frame_)[static_cast<std::size_t>(parameter.index)];
+  return {shape.lower, shape.upper};
+}
+
 void CauseSpread::attach_spread(bool shape, std::size_t cause, Index index,
                                 CauseParameter& p) const {
   for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -162,8 +171,9 @@ void CauseSpread::attach_spread(bool shape, std::size_t cause, Index index,
         spread_of(Eigen::VectorXd::Unit(std::ssize(free_), static_cast<Index>(k)));
     p.std = spread.std;
     if (std::isfinite(p.std)) {
-      p.ci95_lower = p.value - spread.half;
-      p.ci95_upper = p.value + spread.half;
+      const auto [lower, upper] = bounds_of(f);
+      p.ci95_lower = std::max(p.value - spread.half, lower);
+      p.ci95_upper = std::min(p.value + spread.half, upper);
     } else {
       p.no_interval = "not identifiable beside the others on these recordings";
     }

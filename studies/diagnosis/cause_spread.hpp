@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ class CauseSpread {
   CauseSpread(const Frame& frame, const Findings& findings);
 
   /// The parameters of a cause of the model, those of value 0 left out, with standard deviations
-  /// and 95 % intervals, or with the reason why there is none.
+  /// and 95 % intervals within their bounds, or with the reason why there is none.
   std::vector<CauseParameter> parameters(std::size_t cause) const;
 
   /// The same of a cause's size, which goes with its own parameters.
@@ -51,6 +52,8 @@ class CauseSpread {
   void solve();
   /// Of a quantity that goes with the free parameters by these slopes.
   Spread spread_of(const Eigen::VectorXd& slopes) const;
+  /// Where it may be.
+  std::pair<double, double> bounds_of(const Free& parameter) const;
   void attach_spread(bool shape, std::size_t cause, Eigen::Index index,
                      CauseParameter& parameter) const;
 
