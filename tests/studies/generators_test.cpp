@@ -171,6 +171,8 @@ TEST(Coverage, HoldsIntervalsAgainstParametersOfTheSameNameAndUnit) {
   found.parameters[0].unit = "kg m2";
   found.parameters[0].value = 0.32;
   found.parameters[0].std = 0.02;
+  found.parameters[0].ci95_lower = 0.28;
+  found.parameters[0].ci95_upper = 0.36;
   found.parameters[1].name = "other";
   const Diagnosis diagnosis = diagnosis_with(Verdict::explained, {found});
   ScoredCase one;
