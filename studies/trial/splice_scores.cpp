@@ -56,8 +56,9 @@ SpliceScores splice_scores(const std::vector<ScoredCase>& cases) {
   double sum = 0.0;
   for (const ScoredCase& one : cases) {
     const ScoredCase* reference = reference_of(cases, one);
-    if (reference == nullptr || reference == &one || one.score.failed) continue;
+    if (reference == nullptr || one.score.failed) continue;
     if (one.score.kind == CaseKind::kept) {
+      if (one.answer.change == "none") continue;  // a reference, or its like of a later round
       same.add(one.verdict == reference->verdict);
       sum += shared(names_of(one), names_of(*reference));
     } else if (one.score.kind == CaseKind::spliced && !names(*reference, one.answer)) {

@@ -129,14 +129,15 @@ TEST(ScoresOfSplices, AreAgainstTheSameRecordingsAsTheyAre) {
     one.score = score_case(one.answer, &diagnosis);
     return one;
   };
-  const auto scores = splice_scores(
-      {made("none", {}, {"backlash"}), made("mirrored", {}, {"backlash"}),
-       made("first_70", {}, {"backlash", "sensor_delay"}), made("every_second", {}, {}),
-       made("none", {"stribeck_friction"}, {"backlash", "stribeck_friction"}),
-       made("none", {"inertia_torque"}, {"backlash"}),
-       made("none", {"inertia_torque"}, {"inertia_torque"}, 0.1),
-       made("none", {"backlash"}, {"backlash"}, 0.1)});
-  EXPECT_EQ(scores.changed, 3);
+  const auto scores =
+      splice_scores({made("none", {}, {"backlash"}), made("mirrored", {}, {"backlash"}),
+                     made("first_70", {}, {"backlash", "sensor_delay"}),
+                     made("every_second", {}, {}), made("none", {}, {"backlash"}),
+                     made("none", {"stribeck_friction"}, {"backlash", "stribeck_friction"}),
+                     made("none", {"inertia_torque"}, {"backlash"}),
+                     made("none", {"inertia_torque"}, {"inertia_torque"}, 0.1),
+                     made("none", {"backlash"}, {"backlash"}, 0.1)});
+  EXPECT_EQ(scores.changed, 3) << "the same recordings once more are no change";
   EXPECT_EQ(scores.same_verdict.count, 2);
   EXPECT_NEAR(scores.names_shared, (1.0 + 0.5 + 0.0) / 3.0, 1e-12);
   EXPECT_EQ(scores.found_small.count, 1);
