@@ -250,7 +250,7 @@ std::optional<HiddenRow> hidden_by_law(const EffectRow& effect) {
       .equation = effect.equation,
       .site = *site,
       .rigs = rigs,
-      .dissipates = has_sign,
+      .dissipates = has_sign && effect.passive,
       .make = [row = std::make_shared<const EffectRow>(effect), at = *site](
                   const HiddenScale& scale, double amount) { return make(row, at, scale, amount); },
       .joint = on_specimen && *site == HiddenSite::motor};

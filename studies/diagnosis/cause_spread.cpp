@@ -139,6 +139,7 @@ Spread CauseSpread::spread_of(const Eigen::VectorXd& slopes) const {
   }
   const double by_noise = (by_noise_.transpose() * slopes).norm();
   const double apart = (apart_.moves.transpose() * slopes).norm();
+  if (!std::isfinite(by_noise) || !std::isfinite(apart)) return {};
   return {std::max(by_noise, apart), std::max(kNormal95 * by_noise, apart_.quantile * apart)};
 }
 

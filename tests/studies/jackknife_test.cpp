@@ -87,7 +87,7 @@ TEST(Jackknife, HoldsTheTruthWhereRecordingsDiffer) {
                                       equal_pieces(pieces, rows));
     held += std::abs(mean) <= found.quantile * std_of(found)[0] ? 1 : 0;
   }
-  EXPECT_NEAR(held / 500.0, 0.95, 0.03);
+  EXPECT_NEAR(held / 500.0, 0.95, 0.03) << "three standard deviations of 500";
 }
 
 TEST(Jackknife, TakesRecordingsForPiecesAndPartsOfFewOnes) {
