@@ -31,8 +31,8 @@ std::string sentence_of(const ShownCause& cause) {
 Table parameters_table(const ShownCause& cause) {
   Table table{"parameters-" + slug(cause.effect),
               "Parameters of " + words(cause.effect) +
-                  " with their standard deviations and 95 % intervals: all parameters free, the "
-                  "residual's colour and misfit counted, the form taken for right.",
+                  " with their standard deviations and 95 % intervals: all parameters free, "
+                  "noise and what differs between recordings counted, the form taken for right.",
               {{"parameter", "", 3},
                {"meaning", "", 3},
                {"value", "", 4},
