@@ -13,6 +13,7 @@ struct Smoothed {
   Series& value;
   Series& rate;
   Series& second;
+  double* bandwidth = nullptr;
 
   Result<void> fill(const Recording& recording, const Series& samples) const {
     auto smooth = smooth_by_spline(recording.time, samples);
@@ -20,6 +21,7 @@ struct Smoothed {
     value = std::move(smooth->value);
     rate = std::move(smooth->rate);
     second = std::move(smooth->second);
+    if (bandwidth != nullptr) *bandwidth = smooth->bandwidth;
     return {};
   }
 };
@@ -66,7 +68,8 @@ Result<void> smooth_motions(Rig rig, const Recording& recording, DriveChannels& 
           ? first_of(recording, {Quantity::torsion, Quantity::displacement, Quantity::angle})
           : nullptr;
   const std::pair<const Series*, Smoothed> motions[] = {
-      {recording.find(Quantity::motor_angle), {c.motor_angle, c.motor_speed, c.motor_acceleration}},
+      {recording.find(Quantity::motor_angle),
+       {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth}},
       {recording.find(Quantity::load_angle), {c.load_angle, c.load_speed, c.load_acceleration}},
       {torsion, {c.torsion, c.torsion_rate, c.torsion_acceleration}}};
   for (const auto& [samples, smoothed] : motions) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct SmoothSignal {
   std::vector<double> second;
   double noise = 0.0;           ///< standard deviation of the samples, by what smoothing left of it
   std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
+  /// rad/s: of a sine of w the share 1/(1 + (w/bandwidth)^6) is kept; of a spline.
+  double bandwidth = std::numeric_limits<double>::infinity();
 };
 
 /// Whether signals can be smoothed: 16 samples or more over a time that increases, and squares that

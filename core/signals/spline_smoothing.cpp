@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ struct Penalised {
   Eigen::VectorXd coefficients;
   double score = std::numeric_limits<double>::infinity();
   double freedom = 0.0;
+  double penalty = 0.0;
 };
 
 Eigen::MatrixXd random_signs(Eigen::Index rows) {
@@ -107,7 +109,7 @@ void try_penalty(Equations& equations, double penalty, std::vector<Penalised>& b
     const Eigen::VectorXd coefficients = solved.col(column);
     const Eigen::VectorXd rest = equations.samples.col(column) - equations.basis * coefficients;
     const double score = rest.squaredNorm() * n / (left * left);
-    if (score < best[s].score) best[s] = {coefficients, score, freedom};
+    if (score < best[s].score) best[s] = {coefficients, score, freedom, penalty};
   }
 }
 
@@ -130,6 +132,13 @@ SmoothSignal signal_of(const Penalised& fit, const CubicBasis& basis, std::span<
   signal.noise = std::sqrt(sum / left);
   signal.error.assign(n, signal.noise * std::sqrt(fit.freedom / static_cast<double>(n)));
   return signal;
+}
+
+// In the Fourier domain the equations of a coefficient are s + penalty (2 sin(w h/2))^6, s samples
+// in an interval h, where w h is small; what turns faster than the knots can follow is not kept.
+double bandwidth_of(double penalty, double samples_per_interval, double interval) {
+  const double half = std::pow(samples_per_interval / penalty, 1.0 / 6.0);
+  return std::min(half, std::numbers::pi) / interval;
 }
 
 bool has_finite_squares(std::span<const double> samples) {
@@ -178,6 +187,10 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
                      "check the values and the unit of the channel");
     }
     smooth.push_back(signal_of(best[s], basis, time, signals[s]));
+    smooth.back().bandwidth =
+        bandwidth_of(best[s].penalty,
+                     static_cast<double>(time.size()) / static_cast<double>(intervals),
+                     (time.back() - time.front()) / static_cast<double>(intervals));
   }
   return smooth;
 }

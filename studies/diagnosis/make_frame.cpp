@@ -114,6 +114,7 @@ class FrameMaker {
         frame_.time.segment(at_, count) - frame_.time[at_] + c.recording->start_s;
     put(frame_.motor_angle, d.motor_angle), put(frame_.motor_speed, d.motor_speed);
     put(frame_.motor_acceleration, d.motor_acceleration);
+    frame_.motor_bandwidth.segment(at_, count) = d.motor_bandwidth;
     put(frame_.load_angle, d.load_angle), put(frame_.load_speed, d.load_speed);
     put(frame_.load_acceleration, d.load_acceleration);
     put(frame_.torsion, d.torsion), put(frame_.torsion_rate, d.torsion_rate);
@@ -154,6 +155,7 @@ class FrameMaker {
             &f.motor_angle,
             &f.motor_speed,
             &f.motor_acceleration,
+            &f.motor_bandwidth,
             &f.load_angle,
             &f.load_speed,
             &f.load_acceleration,

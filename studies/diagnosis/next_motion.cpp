@@ -39,6 +39,8 @@ Frame empty_like(const Frame& like, Index rows) {
         &f.motor_torque_rate}) {
     channel->setZero(rows);
   }
+  f.motor_bandwidth =
+      ArrayXd::Constant(rows, std::numeric_limits<double>::infinity());  // nothing is smoothed
   f.velocity = ArrayXd::Constant(rows, kNotComputed);
   f.usable = ArrayXd::Ones(rows);
   return f;

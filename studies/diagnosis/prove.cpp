@@ -16,15 +16,15 @@ using Eigen::Index;
 
 constexpr int kSteps = 8;
 
-// What a cause has to lower the error on recordings held out to, over that without it.
-double most_of(const Limits& limits) { return std::sqrt(1.0 - limits.held_out_share); }
+// One that could not be judged is not proved.
+bool is_proved(const CauseProof& cause, const Limits& limits) { return cause.gain >= limits.gain; }
 
-// The cause that does worst on recordings held out; one that could not be judged there is not proved.
+// Of the causes that are not proved the one that does worst.
 std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
   std::optional<std::size_t> worst;
-  for (std::size_t i = 0; i < proof.cause_ratio.size(); ++i) {
-    if (proof.cause_ratio[i] < most_of(limits)) continue;
-    if (!worst || !(proof.cause_ratio[i] <= proof.cause_ratio[*worst])) worst = i;
+  for (std::size_t i = 0; i < proof.causes.size(); ++i) {
+    if (is_proved(proof.causes[i], limits)) continue;
+    if (!worst || !(proof.causes[i].ratio <= proof.causes[*worst].ratio)) worst = i;
   }
   return worst;
 }
@@ -145,17 +145,25 @@ void take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, const
   pool.train_rows += train.sum();
 }
 
-// Error of the equations that a cause acts on, each over its noise.
-double error_over_noise(const Frame& frame, const Findings& findings, const CauseForm& form,
+/// Chi square of held-out rows in the equations that a cause acts on, over the noise's colour.
+struct HeldOutMisfit {
+  double chi_square = 0.0;
+  double noise = 0.0;  ///< what is expected of noise alone
+};
+
+HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const CauseForm& form,
                         const PerEquation& residual, const ArrayXd& held) {
-  double sum = 0.0;
+  HeldOutMisfit misfit;
   for (Equation equation : form.at) {
     if (!frame.has(equation)) continue;
     const std::size_t e = index_of(equation);
-    const double noise = noise_on(frame, findings.noise[e].level, held);
-    sum += std::pow(rms_on(residual[e], held) / noise, 2) / findings.noise[e].colour;
+    const EquationNoise& noise = findings.noise[e];
+    const double rows = held.sum() / noise.colour;
+    const double over_noise = rms_on(residual[e], held) / noise_on(frame, noise.level, held);
+    misfit.chi_square += rows * over_noise * over_noise;
+    misfit.noise += rows;
   }
-  return std::sqrt(sum);
+  return misfit;
 }
 
 void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
@@ -163,11 +171,18 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const CauseForm& form = *s.accepted[i].trial.cause.form;
     const auto of = [&](const PerEquation& residual) {
-      return error_over_noise(frame, s.final, form, residual, held);
+      return misfit_of(frame, s.final, form, residual, held);
     };
-    proof.cause_ratio.push_back(of(pool.final) / of(pool.without[i]));
-    const double instead = of(pool.placebo);
-    proof.placebo_ratio.push_back(instead > 0.0 ? instead / of(pool.base) : kNotComputed);
+    const HeldOutMisfit with = of(pool.final), without = of(pool.without[i]);
+    const HeldOutMisfit base = of(pool.base);
+    const double instead = of(pool.placebo).chi_square;
+    proof.causes.push_back(
+        {.ratio = std::sqrt(with.chi_square / without.chi_square),
+         .placebo_ratio =
+             instead > 0.0 ? std::sqrt(instead / base.chi_square) : kNotComputed,
+         .gain = without.chi_square - with.chi_square,
+         .over_noise = std::sqrt(with.chi_square / with.noise),
+         .before_over_noise = std::sqrt(base.chi_square / base.noise)});
   }
 }
 
@@ -197,7 +212,7 @@ Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Lim
   }
   const auto proof = prove(frame, *other, limits.threads);
   if (!proof) return tl::unexpected(proof.error());
-  if (!(proof->cause_ratio.back() < most_of(limits))) return std::nullopt;
+  if (!is_proved(proof->causes.back(), limits)) return std::nullopt;
   return std::move(*other);
 }
 
@@ -261,7 +276,7 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
     }
     s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
     const auto left_out = leave_out(frame, limits, s, *worst,
-                                    proof->cause_ratio[*worst] < 1.0
+                                    proof->causes[*worst].gain > 0.0
                                         ? "it hardly lowers the error on recordings held out"
                                         : "it does not lower the error on recordings held out");
     if (!left_out) return tl::unexpected(left_out.error());

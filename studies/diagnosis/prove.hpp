@@ -9,6 +9,15 @@ namespace flexspline::studies {
 /// it, else that of the first cause.
 Equation equation_to_prove(const Frame& frame, const Selection& selection);
 
+/// What recordings held out say of a cause, in the equations that it acts on, each over its noise.
+struct CauseProof {
+  double ratio = kNotComputed;          ///< error of the final model over that without the cause
+  double placebo_ratio = kNotComputed;  ///< of the baseline with an absent effect over the baseline
+  double gain = kNotComputed;           ///< by how much it lowers the chi square
+  double over_noise = kNotComputed;     ///< error of the final model over the noise
+  double before_over_noise = kNotComputed;  ///< of the baseline
+};
+
 /// Errors of the baseline and of the final model on the rows that are held out, each row by fits to
 /// the other folds (folds_of). SI, at the output; the interval of the ratio by 400 resamplings of
 /// blocks of the held-out recordings.
@@ -16,10 +25,7 @@ struct Proof {
   HoldoutProof holdout;
   double rmse_train_before = kNotComputed;
   double rmse_train_after = kNotComputed;
-  /// Error of the final model over that without a cause, by cause, and of the baseline with an
-  /// absent effect over the baseline; in the equations that the cause acts on, each over its noise.
-  std::vector<double> cause_ratio;
-  std::vector<double> placebo_ratio;
+  std::vector<CauseProof> causes;  ///< of the selection's accepted ones
   /// Measured torque of the equation to prove as the baseline and the final model predict it, all
   /// rows: where held out by the fits that did not see them, else by those to all recordings.
   Eigen::ArrayXd before;

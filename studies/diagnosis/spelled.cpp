@@ -192,9 +192,11 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.alternatives = alternatives_of(a, s);
     cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;
-    cause.evidence.holdout_rmse_ratio = proof.cause_ratio[i];
-    cause.evidence.ablation_ratio = 1.0 / proof.cause_ratio[i];
-    cause.evidence.placebo_ratio = proof.placebo_ratio[i];
+    cause.evidence.holdout_rmse_ratio = proof.causes[i].ratio;
+    cause.evidence.ablation_ratio = 1.0 / proof.causes[i].ratio;
+    cause.evidence.placebo_ratio = proof.causes[i].placebo_ratio;
+    cause.evidence.over_noise = proof.causes[i].over_noise;
+    cause.evidence.before_over_noise = proof.causes[i].before_over_noise;
     list.push_back(std::move(cause));
   }
   return list;

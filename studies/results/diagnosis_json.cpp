@@ -83,7 +83,10 @@ Json evidence_json(const CauseEvidence& evidence) {
           {"holdout_rmse_ratio", number(evidence.holdout_rmse_ratio)},
           {"delta_bic", number(evidence.delta_bic)},
           {"ablation_ratio", number(evidence.ablation_ratio)},
-          {"placebo_ratio", number(evidence.placebo_ratio)}};
+          {"placebo_ratio", number(evidence.placebo_ratio)},
+          {"over_noise", number(evidence.over_noise)},
+          {"before_over_noise", number(evidence.before_over_noise)},
+          {"left_over", number(evidence.left_over)}};
 }
 
 Json cause_json(const Diagnosis& diagnosis, const Cause& cause) {

@@ -17,7 +17,10 @@ ordered_json cause_json(const Cause& cause) {
           {"alternatives", cause.alternatives},
           {"score_p_value", cause.evidence.score_p_value},
           {"holdout_rmse_ratio", cause.evidence.holdout_rmse_ratio},
-          {"delta_bic", cause.evidence.delta_bic}};
+          {"delta_bic", cause.evidence.delta_bic},
+          {"over_noise", cause.evidence.over_noise},
+          {"before_over_noise", cause.evidence.before_over_noise},
+          {"left_over", cause.evidence.left_over}};
 }
 
 ordered_json unnamed_json(const UnnamedPart& part) {

@@ -86,7 +86,7 @@ TEST_F(Rivals, ThatAreNamedThemselvesAreNoAlternatives) {
   Selection s = accepted(0, 1);
   const std::string rival(s.accepted.front().rivals.front().cause.row->id);
   Proof proof;
-  proof.cause_ratio = proof.placebo_ratio = {0.5, 0.5};
+  proof.causes = {{.ratio = 0.5}, {.ratio = 0.5}};
   EXPECT_THAT(spelled_causes(frame_, s, proof).front().alternatives, testing::ElementsAre(rival));
   Accepted other;
   other.trial = s.accepted.front().rivals.front();

@@ -41,6 +41,24 @@ Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values 
   return sine_pair(f.motor_angle, shape[0], f.smooth_motor_torque);
 }
 
+// A motor whose drive does not answer a ripple follows it, and J theta'' takes it up. With theta''
+// smoothed, J theta''_s = H (tau_m - tau_f - ripple): of the smooth torques all is left, of the
+// ripple what the smoothing H keeps.
+ArrayXd kept(const Frame& f, double order) {
+  return 1.0 / (1.0 + (order * f.motor_speed / f.motor_bandwidth).pow(6.0));
+}
+
+Columns ripple_followed(Equation, const Frame& f, const Reference&, Values shape) {
+  return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]));
+}
+
+Columns ripple_under_current_followed(Equation, const Frame& f, const Reference&, Values shape) {
+  return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]) * f.smooth_motor_torque);
+}
+
+// Where smoothing takes away a tenth and more of the highest order.
+bool follows(const Frame& f) { return geared(f) && kept(f, kHighestOrder).minCoeff() < 0.9; }
+
 // A channel that ripples was zeroed at some angle of the motor: there it shows nothing.
 Columns ripple_of_channel(Equation, const Frame& f, const Reference&, Values shape) {
   Columns columns = sine_pair(f.motor_angle, shape[0]);
@@ -115,6 +133,24 @@ CauseRow describe_motor_torque_ripple() {
                      .terms = ripple_terms,
                      .columns = ripple_under_current,
                      .where = geared,
+                     .counterpart = under_current},
+                    {.equation = "tau_f += a sin k theta_m + b cos k theta_m, which the motor "
+                                 "follows",
+                     .rigs = kTurning,
+                     .at = {Equation::motor},
+                     .shapes = turns,
+                     .terms = cogging_terms,
+                     .columns = ripple_followed,
+                     .where = follows,
+                     .counterpart = cogging},
+                    {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m), which the "
+                                 "motor follows",
+                     .rigs = kTurning,
+                     .at = {Equation::motor},
+                     .shapes = turns,
+                     .terms = ripple_terms,
+                     .columns = ripple_under_current_followed,
+                     .where = follows,
                      .counterpart = under_current}}};
 }
 

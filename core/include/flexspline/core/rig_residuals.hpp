@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct DriveChannels {
   std::vector<double> torsion, torsion_rate, torsion_acceleration;  ///< measured on a specimen
   std::vector<double> transmitted_torque;
   std::vector<double> motor_torque;
+  /// rad/s: of what turns with w the smoothed motor angle and its derivatives keep the share
+  /// 1/(1 + (w/motor_bandwidth)^6).
+  double motor_bandwidth = std::numeric_limits<double>::infinity();
   std::vector<double> load_torque;  ///< beyond the pendulum's; empty for none
 };
 

@@ -53,6 +53,10 @@ struct CauseEvidence {
   double delta_bic = kNotComputed;           ///< with it minus without it; negative favours it
   double ablation_ratio = kNotComputed;      ///< final model without it over final model, held out
   double placebo_ratio = kNotComputed;       ///< the best absent effect of as many parameters
+  /// Errors on recordings held out of the whole model and of the baseline over the noise, in the
+  /// equations that the cause acts on.
+  double over_noise = kNotComputed;
+  double before_over_noise = kNotComputed;
   /// Log evidence of the best table without a name beside it over half of the chi square that rises
   /// without the cause, nats both; the largest of its equations.
   double left_over = kNotComputed;
