@@ -62,19 +62,27 @@ void follow_rigidly(double ratio, const Series& load, Series& motor) {
 }
 
 // Angles with their derivatives, as far as they were recorded.
-Result<void> smooth_motions(Rig rig, const Recording& recording, DriveChannels& c) {
+Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, DriveChannels& c) {
   const Series* torsion =
       rig == Rig::specimen
           ? first_of(recording, {Quantity::torsion, Quantity::displacement, Quantity::angle})
           : nullptr;
+  double load_bandwidth = c.motor_bandwidth;
   const std::pair<const Series*, Smoothed> motions[] = {
       {recording.find(Quantity::motor_angle),
        {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth}},
-      {recording.find(Quantity::load_angle), {c.load_angle, c.load_speed, c.load_acceleration}},
+      {recording.find(Quantity::load_angle),
+       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth}},
       {torsion, {c.torsion, c.torsion_rate, c.torsion_acceleration}}};
   for (const auto& [samples, smoothed] : motions) {
     if (samples == nullptr) continue;
     if (auto filled = smoothed.fill(recording, *samples); !filled) return filled;
+  }
+  if (rig == Rig::servo && c.motor_angle.empty()) {
+    follow_rigidly(ratio, c.load_angle, c.motor_angle);
+    follow_rigidly(ratio, c.load_speed, c.motor_speed);
+    follow_rigidly(ratio, c.load_acceleration, c.motor_acceleration);
+    c.motor_bandwidth = load_bandwidth;
   }
   return {};
 }
@@ -84,13 +92,8 @@ Result<void> smooth_motions(Rig rig, const Recording& recording, DriveChannels& 
 Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording) {
   DriveChannels c;
   c.time = recording.time;
-  if (auto smooth = smooth_motions(rig, recording, c); !smooth) {
+  if (auto smooth = smooth_motions(rig, drive.gear_ratio, recording, c); !smooth) {
     return tl::unexpected(smooth.error());
-  }
-  if (rig == Rig::servo && c.motor_angle.empty()) {
-    follow_rigidly(drive.gear_ratio, c.load_angle, c.motor_angle);
-    follow_rigidly(drive.gear_ratio, c.load_speed, c.motor_speed);
-    follow_rigidly(drive.gear_ratio, c.load_acceleration, c.motor_acceleration);
   }
   const Series* effort =
       first_of(recording, {Quantity::transmitted_torque, Quantity::torque, Quantity::force});

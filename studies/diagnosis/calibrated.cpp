@@ -1,30 +1,36 @@
 #include "diagnosis/calibrated.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace flexspline::studies {
 namespace {
 
 constexpr double kLeastShare = 0.002;
-constexpr double kMostMisfit = std::numbers::sqrt2;   // beyond it cases are too few to tell more
-constexpr double kLeastLeft = 1e-3, kMostLeft = 0.3;  // neither are they beyond these
-constexpr double kNone = 6.1, kOfShare = 0.9, kOfMisfit = -10.5, kOfLeft = -0.5,
-                 kOfAlternatives = -1.6;
+constexpr double kLeast = 1e-3;        // of what is left; cases are too few to tell less
+constexpr double kLeastExcess = 0.05;  // of the noise's mean square: as the noise is known
+constexpr double kMostLeftOver = 0.3;  // beyond it cases are too few to tell more
+constexpr double kNone = 7.2, kOfShare = 0.7, kOfRest = -0.3, kOfLeftOver = -0.8,
+                 kOfAlternatives = -1.4;
 
 // NaN stays.
 double within(double x, double lower, double upper) {
   return x < lower ? lower : x > upper ? upper : x;
 }
 
+// Of the baseline's mean square beyond noise what the whole model leaves.
+double rest(double over_noise, double before_over_noise) {
+  const double excess = before_over_noise * before_over_noise - 1.0;
+  return (over_noise * over_noise - 1.0) / (excess < kLeastExcess ? kLeastExcess : excess);
+}
+
 }  // namespace
 
 double probability_right(const NameEvidence& e) {
   const double share = within(1.0 - e.ratio * e.ratio, kLeastShare, 1.0);
-  const double misfit = within(e.over_noise, 1.0, kMostMisfit);
-  const double left = within(e.left_over, kLeastLeft, kMostLeft) / kLeastLeft;
-  const double log_odds = kNone + kOfShare * std::log(share) + kOfMisfit * std::log(misfit) +
-                          kOfLeft * std::log(left) +
+  const double misfit = within(rest(e.over_noise, e.before_over_noise), kLeast, 1.0) / kLeast;
+  const double left = within(e.left_over, kLeast, kMostLeftOver) / kLeast;
+  const double log_odds = kNone + kOfShare * std::log(share) + kOfRest * std::log(misfit) +
+                          kOfLeftOver * std::log(left) +
                           kOfAlternatives * static_cast<double>(e.alternatives);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }

@@ -96,7 +96,7 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   Decision d;
   d.finding = std::move(*finding);
   d.proof = d.finding.proof.holdout;
-  d.ripple = find_ripple(d.finding.frame, d.finding.selection, limits);
+  d.ripple = find_ripple(d.finding.frame, d.finding.selection, d.proof, limits);
 
   // Proof.
   if (nests) prove_in_folds(all, limits, part_of(progress, searched, 0.9), d);
@@ -108,9 +108,8 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   // Abstention, and a model of what is left.
   if (progress) progress(0.9, "comparing the candidates");
   d.verdict = verdict_of(d, limits);
-  if (d.verdict != Verdict::adequate) {
-    d.left = left_to_tables(d.finding.frame, d.finding.selection, d.finding.proof, limits,
-                            d.verdict != Verdict::explained);
+  if (d.verdict != Verdict::adequate && d.verdict != Verdict::explained) {
+    d.unnamed = unnamed_part(d.finding.frame, d.finding.selection, d.finding.proof, limits);
   }
   d.undecided = undecidable(d.finding.frame, d.finding.selection, d.verdict, limits);
   if (d.undecided) d.verdict = Verdict::undecided;

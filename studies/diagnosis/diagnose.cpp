@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/calibrated.hpp"
 #include "diagnosis/diagnosed.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/specification.hpp"
@@ -44,27 +43,6 @@ std::vector<std::string> remarks_on(const Selection& s) {
   return remarks;
 }
 
-// causes: those of the selection, in its order.
-void weigh_what_is_left(const Selection& s, const LeftToTables& left, std::vector<Cause>& causes) {
-  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    double most = 0.0;
-    for (Equation at : s.accepted[i].trial.cause.form->at) {
-      most = std::max(most, left.evidence[index_of(at)]);
-    }
-    causes[i].evidence.left_over = most / (0.5 * s.accepted[i].trial.gain);
-  }
-}
-
-// By the folds that choose: the calibration's.
-void judge_names(const HoldoutProof& holdout, Diagnosis& d) {
-  for (Cause& cause : d.causes) {
-    cause.probability = probability_right({.ratio = cause.evidence.holdout_rmse_ratio,
-                                           .over_noise = holdout.over_noise(),
-                                           .left_over = cause.evidence.left_over,
-                                           .alternatives = cause.alternatives.size()});
-  }
-}
-
 void name_in_units(Diagnosis& d) {
   const bool linear = find_unit(d.display.motion)->dimension == Dimension::length;
   for (Cause& cause : d.causes) cause.unit = linear ? "N" : "Nm";
@@ -101,16 +79,14 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.series = decision.taken_away;
   append(d.series, spelled_series(frame, selection, proof));
   d.causes = spelled_causes(frame, selection, proof);
-  weigh_what_is_left(selection, decision.left, d.causes);
   for (Cause& cause : d.causes) {
     if (decision.nested) cause.stability = stability_of(*decision.nested, cause);
   }
   d.mismatch = spelled_mismatch(frame, selection, limits);
   d.confusable = spelled_confusable(frame, selection);
   d.tried = spelled_trials(selection, limits);
-  d.unnamed = decision.left.part;
+  d.unnamed = decision.unnamed;
   if (decision.ripple) spell_ripple(frame, selection, *decision.ripple, d);
-  judge_names(proof.holdout, d);
   name_in_units(d);
   d.moved = spelled_moves(frame, selection);
   d.experiments = next_experiments(frame, selection);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/confirm.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/incident.hpp"
 #include "diagnosis/zeros.hpp"

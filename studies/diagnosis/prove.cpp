@@ -16,19 +16,6 @@ using Eigen::Index;
 
 constexpr int kSteps = 8;
 
-// One that could not be judged is not proved.
-bool is_proved(const CauseProof& cause, const Limits& limits) { return cause.gain >= limits.gain; }
-
-// Of the causes that are not proved the one that does worst.
-std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
-  std::optional<std::size_t> worst;
-  for (std::size_t i = 0; i < proof.causes.size(); ++i) {
-    if (is_proved(proof.causes[i], limits)) continue;
-    if (!worst || !(proof.causes[i].ratio <= proof.causes[*worst].ratio)) worst = i;
-  }
-  return worst;
-}
-
 /// Findings whose weights leave the held-out rows out of the fit.
 Findings on_training(Findings findings, const ArrayXd& out) {
   for (PerEquation* weights : {&findings.weight, &findings.fit_weight}) {
@@ -177,43 +164,13 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
     const HeldOutMisfit base = of(pool.base);
     const double instead = of(pool.placebo).chi_square;
     proof.causes.push_back(
-        {.ratio = std::sqrt(with.chi_square / without.chi_square),
+        {.name = {.ratio = std::sqrt(with.chi_square / without.chi_square),
+                  .over_noise = std::sqrt(with.chi_square / with.noise),
+                  .before_over_noise = std::sqrt(base.chi_square / base.noise)},
          .placebo_ratio =
              instead > 0.0 ? std::sqrt(instead / base.chi_square) : kNotComputed,
-         .gain = without.chi_square - with.chi_square,
-         .over_noise = std::sqrt(with.chi_square / with.noise),
-         .before_over_noise = std::sqrt(base.chi_square / base.noise)});
+         .gain = without.chi_square - with.chi_square});
   }
-}
-
-// What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
-bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
-                       std::size_t cause) {
-  const double gain = s.accepted[cause].trial.gain;
-  return gain > limits.half * (chi_square(frame, s.final, s.final.fit) + gain);
-}
-
-// What explains the same signal nearly as well as a cause that fails on recordings held out, if it
-// holds there itself.
-Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Limits& limits,
-                                                   Selection s, std::size_t cause) {
-  auto& rivals = s.accepted[cause].rivals;
-  std::erase_if(rivals, [&](const Trial& t) {
-    return std::ranges::any_of(s.final.fit.model.causes,
-                               [&](const ActiveCause& c) { return c.row == t.cause.row; });
-  });
-  if (rivals.empty()) return std::nullopt;
-  auto other =
-      with_rival(frame, limits, s, cause,
-                 "it does not lower the error on recordings held out, an alternative does");
-  if (!other) return tl::unexpected(other.error());
-  if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
-    return std::nullopt;
-  }
-  const auto proof = prove(frame, *other, limits.threads);
-  if (!proof) return tl::unexpected(proof.error());
-  if (!is_proved(proof->causes.back(), limits)) return std::nullopt;
-  return std::move(*other);
 }
 
 }  // namespace
@@ -260,27 +217,6 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
     }
   }
   return proof;
-}
-
-Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
-  while (true) {
-    auto proof = prove(frame, s, limits.threads);
-    if (!proof) return proof;
-    const auto worst = unconfirmed(*proof, limits);
-    if (!worst) return proof;
-    auto exchanged = with_proven_rival(frame, limits, s, *worst);
-    if (!exchanged) return tl::unexpected(exchanged.error());
-    if (*exchanged) {
-      s = std::move(**exchanged);
-      continue;
-    }
-    s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
-    const auto left_out = leave_out(frame, limits, s, *worst,
-                                    proof->causes[*worst].gain > 0.0
-                                        ? "it hardly lowers the error on recordings held out"
-                                        : "it does not lower the error on recordings held out");
-    if (!left_out) return tl::unexpected(left_out.error());
-  }
 }
 
 }  // namespace flexspline::studies

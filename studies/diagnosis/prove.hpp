@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/calibrated.hpp"
 #include "diagnosis/selection.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -11,11 +12,9 @@ Equation equation_to_prove(const Frame& frame, const Selection& selection);
 
 /// What recordings held out say of a cause, in the equations that it acts on, each over its noise.
 struct CauseProof {
-  double ratio = kNotComputed;          ///< error of the final model over that without the cause
+  NameEvidence name;                    ///< what is left over beside it once it is confirmed
   double placebo_ratio = kNotComputed;  ///< of the baseline with an absent effect over the baseline
   double gain = kNotComputed;           ///< by how much it lowers the chi square
-  double over_noise = kNotComputed;     ///< error of the final model over the noise
-  double before_over_noise = kNotComputed;  ///< of the baseline
 };
 
 /// Errors of the baseline and of the final model on the rows that are held out, each row by fits to
@@ -34,9 +33,5 @@ struct Proof {
 };
 /// The same for any number of threads; 0: as many as the machine has.
 Result<Proof> prove(const Frame& frame, const Selection& selection, unsigned threads);
-
-/// The same, with the causes withdrawn that do not lower the error on recordings held out; the
-/// worst first, each time proved anew.
-Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

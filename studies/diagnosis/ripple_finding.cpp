@@ -29,20 +29,26 @@ RippleName name_of(const Frame& frame, const Ripple& ripple) {
   return name;
 }
 
-std::optional<RippleName> proved_name(const Frame& frame, const Selection& s, const Limits& limits,
+std::optional<RippleName> proved_name(const Frame& frame, const Selection& s,
+                                      const HoldoutProof& holdout, const Limits& limits,
                                       const Ripple& ripple) {
   RippleName name = name_of(frame, ripple);
   if (name.row == nullptr || ripple.share < limits.quarter) return std::nullopt;
   auto proof = prove_ripple(frame, s.final);
   if (!proof || proof->statistic < limits.named_gain) return std::nullopt;
   name.proof = std::move(*proof);
+  name.evidence = {.ratio = name.proof.ratio,
+                   .over_noise = holdout.over_noise(),
+                   .before_over_noise = holdout.over_noise() / name.proof.ratio};
+  if (!(probability_right(name.evidence) >= limits.probability)) return std::nullopt;
+  name.evidence.alternatives = name.others.size();
   return name;
 }
 
 }  // namespace
 
 std::optional<RippleFinding> find_ripple(const Frame& frame, const Selection& s,
-                                         const Limits& limits) {
+                                         const HoldoutProof& holdout, const Limits& limits) {
   const auto ripple = ripple_left(frame, s.final);
   if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.tenth) {
     return std::nullopt;
@@ -50,7 +56,7 @@ std::optional<RippleFinding> find_ripple(const Frame& frame, const Selection& s,
   RippleFinding finding{*ripple, false, std::nullopt};
   finding.taken = std::ranges::any_of(
       s.accepted, [](const Accepted& a) { return a.trial.cause.row->coordinate == kCoordinate; });
-  if (!finding.taken) finding.name = proved_name(frame, s, limits, *ripple);
+  if (!finding.taken) finding.name = proved_name(frame, s, holdout, limits, *ripple);
   return finding;
 }
 

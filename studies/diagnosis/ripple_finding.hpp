@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/prove.hpp"
 #include "diagnosis/ripple.hpp"
 #include "diagnosis/selection.hpp"
 
@@ -17,6 +18,7 @@ struct RippleName {
   double order = 0.0;
   std::vector<std::string> others;
   RippleProof proof;
+  NameEvidence evidence;  ///< no table looks at the fast changes: nothing is left over beside it
 };
 
 /// A ripple over the motor's angle that counts.
@@ -28,8 +30,9 @@ struct RippleFinding {
 
 /// The ripple that no cause took. Named where the catalogue has a cause of its order for joints
 /// that travel, and a recording confirms the order that the others tell, however small it is
-/// against the torque: of the fast changes in steady strokes it has to be a quarter.
+/// against the torque: of the fast changes in steady strokes it has to be a quarter, and the name,
+/// or one of its alternatives, right with limits.probability.
 std::optional<RippleFinding> find_ripple(const Frame& frame, const Selection& selection,
-                                         const Limits& limits);
+                                         const HoldoutProof& holdout, const Limits& limits);
 
 }  // namespace flexspline::studies

@@ -12,8 +12,8 @@ namespace flexspline::studies {
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
 /// from: docs/diagnosis.md and docs/decisions/0029.
 struct Limits {
-  double gain = 18.0;        ///< least net gain of a cause, and statistic of a coordinate that says
-                             ///< something is left
+  double gain = 18.0;        ///< least net gain of a cause, least gain of one on recordings held
+                             ///< out, and statistic of a coordinate that says something is left
   double named_gain = 80.0;  ///< least net gain of a cause that is named, or stands in a shadow
   double interest = 0.008;   ///< least size of a cause, share of the largest torque
   double half = 0.5;         ///< the larger part: of a gain, a misfit, a torque or its variance
@@ -21,7 +21,7 @@ struct Limits {
                              ///< fast changes in steady strokes that is named
   double tenth = 0.1;    ///< of a residual, a gain, or of what could stand for the same: no trifle
   double shadow = 0.03;  ///< gain over that of a larger cause of the same equation
-  double held_out_share = 0.04;  ///< least share that a cause explains of the mean square held out
+  double probability = 0.5;  ///< least probability of a name or one of its alternatives
   std::size_t causes = 4;     ///< more together, or as many where something is left, are a stand-in
                               ///< for something without a name
   std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most

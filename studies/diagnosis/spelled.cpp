@@ -9,6 +9,7 @@
 
 #include "diagnosis/baseline.hpp"
 #include "diagnosis/cause_spread.hpp"
+#include "diagnosis/confirm.hpp"
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/folds.hpp"
 
@@ -18,19 +19,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr std::size_t kMostAlternatives = 2;
 constexpr Index kSeriesPoints = 400;
-
-// What is named beside a cause is told apart from it.
-std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& s) {
-  std::vector<std::string> ids;
-  for (const Trial& t : accepted.rivals) {
-    const bool named = std::ranges::any_of(
-        s.accepted, [&](const Accepted& a) { return a.trial.cause.row == t.cause.row; });
-    if (!named && ids.size() < kMostAlternatives) ids.emplace_back(t.cause.row->id);
-  }
-  return ids;
-}
 
 /// Which torque a size is a fraction of, and how large that is.
 struct SizeOf {
@@ -192,11 +181,14 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.alternatives = alternatives_of(a, s);
     cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;
-    cause.evidence.holdout_rmse_ratio = proof.causes[i].ratio;
-    cause.evidence.ablation_ratio = 1.0 / proof.causes[i].ratio;
-    cause.evidence.placebo_ratio = proof.causes[i].placebo_ratio;
-    cause.evidence.over_noise = proof.causes[i].over_noise;
-    cause.evidence.before_over_noise = proof.causes[i].before_over_noise;
+    const CauseProof& proved = proof.causes[i];
+    cause.probability = probability_right(proved.name);
+    cause.evidence.holdout_rmse_ratio = proved.name.ratio;
+    cause.evidence.ablation_ratio = 1.0 / proved.name.ratio;
+    cause.evidence.placebo_ratio = proved.placebo_ratio;
+    cause.evidence.over_noise = proved.name.over_noise;
+    cause.evidence.before_over_noise = proved.name.before_over_noise;
+    cause.evidence.left_over = proved.name.left_over;
     list.push_back(std::move(cause));
   }
   return list;

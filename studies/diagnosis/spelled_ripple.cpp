@@ -39,9 +39,12 @@ Cause cause_of(const Frame& frame, const Ripple& ripple, const RippleName& name)
   cause.evidence.score_p_value =
       p_value(proof.statistic, kEach * static_cast<int>(proof.recordings.size()));
   cause.evidence.delta_bic = -ripple.statistic;
+  cause.probability = probability_right(name.evidence);
   cause.evidence.holdout_rmse_ratio = proof.ratio;
   cause.evidence.ablation_ratio = 1.0 / proof.ratio;
-  cause.evidence.left_over = 0.0;  // it is in the fast changes, which no table looks at
+  cause.evidence.over_noise = name.evidence.over_noise;
+  cause.evidence.before_over_noise = name.evidence.before_over_noise;
+  cause.evidence.left_over = name.evidence.left_over;
   return cause;
 }
 

@@ -209,18 +209,23 @@ std::optional<UnnamedPart> part_of(const Frame& frame, const Selection& s, const
 
 }  // namespace
 
-LeftToTables left_to_tables(const Frame& frame, const Selection& s, const Proof& proof,
-                            const Limits& limits, bool remains) {
-  LeftToTables left;
+std::array<double, 3> left_to_tables(const Frame& frame, const Findings& model) {
+  std::array<double, 3> evidence{};
+  for (Equation equation : frame.equations) {
+    evidence[index_of(equation)] = found_in(frame, model, equation).best.fit.gain;
+  }
+  return evidence;
+}
+
+std::optional<UnnamedPart> unnamed_part(const Frame& frame, const Selection& s, const Proof& proof,
+                                        const Limits& limits) {
   std::optional<Found> most;
   for (Equation equation : frame.equations) {
     Found found = found_in(frame, s.final, equation);
     if (found.best.candidate == nullptr) continue;
-    left.evidence[index_of(equation)] = found.best.fit.gain;
     if (!most || found.best.fit.gain > most->best.fit.gain) most = std::move(found);
   }
-  if (remains && most) left.part = part_of(frame, s, proof, limits, *most);
-  return left;
+  return most ? part_of(frame, s, proof, limits, *most) : std::nullopt;
 }
 
 }  // namespace flexspline::studies

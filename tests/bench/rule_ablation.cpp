@@ -42,7 +42,7 @@ std::vector<Rule> rules() {
       {"tenth", [](Limits& l) { l.tenth = l.shadow; }},
       {"shadow", [](Limits& l) { l.shadow = l.tenth = 0.0; }},
       {"quarter", [](Limits& l) { l.quarter = 1.0; }},
-      {"held_out_share", [](Limits& l) { l.held_out_share = 0.0; }},
+      {"probability", [](Limits& l) { l.probability = 0.0; }},
       {"causes", [](Limits& l) { l.causes = 99; }},
       {"incidents", [](Limits& l) { l.incidents = 0; }},
   };

@@ -16,30 +16,46 @@ double log_odds(const NameEvidence& evidence) {
 
 // Each number moves the log odds by its own term, whatever the others are.
 TEST(ProbabilityRight, IsLinearInTheLogOdds) {
-  const NameEvidence one{.ratio = std::sqrt(0.5), .over_noise = 1.1, .left_over = 0.01};
-  NameEvidence half = one, more = one, noisier = one, either = one;
-  half.ratio = std::sqrt(0.75);
-  more.left_over = 0.05;
-  noisier.over_noise = 1.21;
-  either.alternatives = 1;
-  const double share = log_odds(half) - log_odds(one);
-  const double left = log_odds(more) - log_odds(one);
-  const double misfit = log_odds(noisier) - log_odds(one);
-  const double others = log_odds(either) - log_odds(one);
-  for (const double term : {share, left, misfit, others}) EXPECT_LT(term, -0.1);
-  const NameEvidence all{.ratio = half.ratio, .over_noise = 1.21, .left_over = 0.05, .alternatives = 1};
-  EXPECT_NEAR(log_odds(all), log_odds(one) + share + left + misfit + others, 1e-9);
+  const NameEvidence one{.ratio = std::sqrt(0.5),
+                         .over_noise = std::sqrt(1.1),
+                         .before_over_noise = std::sqrt(3.0),
+                         .left_over = 0.01};
+  NameEvidence half = one, more = one, worse = one, either = one, all = one;
+  half.ratio = all.ratio = std::sqrt(0.75);
+  more.left_over = all.left_over = 0.05;
+  worse.over_noise = all.over_noise = std::sqrt(1.2);
+  either.alternatives = all.alternatives = 1;
+  double sum = log_odds(one);
+  for (const NameEvidence& other : {half, more, worse, either}) {
+    const double term = log_odds(other) - log_odds(one);
+    EXPECT_LT(term, -0.1);
+    sum += term;
+  }
+  EXPECT_NEAR(log_odds(all), sum, 1e-9);
   NameEvidence quarter = one;
   quarter.ratio = std::sqrt(0.875);
-  EXPECT_NEAR(log_odds(quarter) - log_odds(half), share, 1e-9) << "by the logarithm of the share";
+  EXPECT_NEAR(log_odds(quarter) - log_odds(half), log_odds(half) - log_odds(one), 1e-9)
+      << "by the logarithm of the share";
+}
+
+// Recordings of twice the noise, and of less of everything: what is left of the misfit is the same.
+TEST(ProbabilityRight, GoesByTheShareOfTheMisfitThatIsLeft) {
+  const auto of = [](double before, double after) {
+    return probability_right({.ratio = 0.5,
+                              .over_noise = std::sqrt(1.0 + after),
+                              .before_over_noise = std::sqrt(1.0 + before),
+                              .left_over = 0.01});
+  };
+  EXPECT_NEAR(of(8.0, 2.0), of(2.0, 0.5), 1e-12);
+  EXPECT_GT(of(8.0, 0.5), of(8.0, 2.0));
 }
 
 TEST(ProbabilityRight, SaysNoMoreThanWasCalibrated) {
   EXPECT_EQ(probability_right({.ratio = 1.0}), probability_right({.ratio = 2.0}));
-  EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 0.9}),
-            probability_right({.ratio = 0.5, .over_noise = 1.0}));
-  EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 1.5}),
-            probability_right({.ratio = 0.5, .over_noise = 6.0}));
+  EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 0.9, .before_over_noise = 2.0}),
+            probability_right({.ratio = 0.5, .over_noise = 1.0, .before_over_noise = 2.0}));
+  EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 2.0, .before_over_noise = 2.0}),
+            probability_right({.ratio = 0.5, .over_noise = 6.0, .before_over_noise = 2.0}));
   const double sure = probability_right({.ratio = 0.0});
   EXPECT_GT(sure, 0.95);
   EXPECT_LT(sure, 1.0);
