@@ -21,14 +21,12 @@ bool admissible(const Trial& trial, const Limits& limits) {
 
 Accepted accepted_as(Trial trial, const Limits& limits) {
   Accepted accepted;
-  accepted.first_gain = trial.gain;
-  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.interest &&
-                      trial.net_gain >= limits.named_gain;
+  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.interest;
   accepted.trial = std::move(trial);
   return accepted;
 }
 
-// The best, or a part of the baseline beside which it gains less than a name has to.
+// The best, or a part of the baseline beside which it gains less than a cause has to.
 std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const Limits& limits) {
   const auto may_be = [&](const Trial& trial) {
     return admissible(trial, limits) && std::ranges::count(s.redundant, trial.cause.row) == 0;
@@ -36,7 +34,7 @@ std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const L
   const auto best = std::ranges::find_if(trials, may_be);
   const auto part = std::ranges::find_if(trials, [&](const Trial& trial) {
     return may_be(trial) && trial.cause.row->of_baseline() &&
-           trial.gain > best->gain - limits.named_gain;
+           trial.gain > best->gain - limits.gain;
   });
   return static_cast<std::size_t>((part != trials.end() ? part : best) - trials.begin());
 }
@@ -105,11 +103,6 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
   return {};
 }
 
-void judge(const Frame& frame, Selection& s) {
-  s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
-  s.removed = misfit_removed(frame, s);
-}
-
 // Takes a cause out of the model; the others are not fitted again.
 Result<void> take_out(const Frame& frame, Selection& s, std::size_t i, std::string_view because) {
   auto fit = reduced(frame, s.final, s.immaterial.size() + i, kRefreshSteps);
@@ -127,52 +120,10 @@ Result<void> fit_again(const Frame& frame, Selection& s) {
   return {};
 }
 
-// Causes that explain too little are withdrawn, but for those that clear what they order.
-Result<void> withdraw(const Frame& frame, const Limits& limits, Selection& s) {
-  for (std::size_t i = s.accepted.size(); i > 0; --i) {
-    if (clears_its_coordinate(s, s.accepted[i - 1], limits)) continue;
-    const auto taken =
-        take_out(frame, s, i - 1, "what it leaves is no noise, and no effect tried takes it away");
-    if (!taken) return taken;
-  }
-  return fit_again(frame, s);
-}
-
-// Where more causes are left than may stand together, the least go while the others explain nearly
-// as much.
-Result<void> keep_the_main(const Frame& frame, const Limits& limits, Selection& s) {
-  if (!too_many(s, limits)) return {};
-  const double removed = s.removed;
-  Selection fewer = s;
-  while (too_many(fewer, limits)) {
-    const auto least = std::ranges::min_element(fewer.accepted, {},
-                                                [](const Accepted& a) { return a.trial.gain; });
-    const auto taken =
-        take_out(frame, fewer, static_cast<std::size_t>(least - fewer.accepted.begin()),
-                 "small beside the others, and too many names stand together");
-    if (!taken) return taken;
-    const auto fitted = fit_again(frame, fewer);
-    if (!fitted) return fitted;
-    judge(frame, fewer);
-    if (fewer.removed < limits.alike() * removed) return {};
-  }
-  s = std::move(fewer);
-  return {};
-}
-
-Result<void> conclude(const Frame& frame, const Limits& limits, Selection& s) {
-  judge(frame, s);
-  const auto kept = keep_the_main(frame, limits, s);
-  if (!kept) return kept;
-  const bool stands = s.accepted.empty() || explains_enough(frame, s, limits);
-  if (!stands) {
-    const auto done = withdraw(frame, limits, s);
-    if (!done) return done;
-    judge(frame, s);
-  }
-  s.remainder = !stands || s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
+void conclude(const Frame& frame, const Limits& limits, Selection& s) {
+  s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
+  s.remainder = s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
                 worst_misfit(frame, s.final) > limits.as_noise();
-  return {};
 }
 
 // The causes of another selection, fitted to this frame.
@@ -218,8 +169,7 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   const auto based = fit_baseline_again(frame, s);
   if (!based) return tl::unexpected(based.error());
   s.before = locate(frame, s.baseline);
-  const auto concluded = conclude(frame, limits, s);
-  if (!concluded) return tl::unexpected(concluded.error());
+  conclude(frame, limits, s);
   return s;
 }
 
@@ -229,7 +179,8 @@ Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& s, s
   if (!taken) return taken;
   const auto fitted = fit_again(frame, s);
   if (!fitted) return fitted;
-  return conclude(frame, limits, s);
+  conclude(frame, limits, s);
+  return {};
 }
 
 Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection s,
@@ -246,8 +197,7 @@ Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection
   s.accepted.push_back(std::move(rival));
   const auto fitted = fit_again(frame, s);
   if (!fitted) return tl::unexpected(fitted.error());
-  const auto concluded = conclude(frame, limits, s);
-  if (!concluded) return tl::unexpected(concluded.error());
+  conclude(frame, limits, s);
   return s;
 }
 

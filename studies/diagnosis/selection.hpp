@@ -14,16 +14,12 @@ namespace flexspline::studies {
 struct Limits {
   double gain = 18.0;        ///< least net gain of a cause, least gain of one on recordings held
                              ///< out, and statistic of a coordinate that says something is left
-  double named_gain = 80.0;  ///< least net gain of a cause that is named, or stands in a shadow
   double interest = 0.008;   ///< least size of a cause, share of the largest torque
   double half = 0.5;         ///< the larger part: of a gain, a misfit, a torque or its variance
-  double quarter = 0.25;     ///< what may be left of a misfit that is explained; least share of the
-                             ///< fast changes in steady strokes that is named
+  double quarter = 0.25;     ///< least share of the fast changes in steady strokes that is named; of
+                             ///< a peak, a trifle
   double tenth = 0.1;    ///< of a residual, a gain, or of what could stand for the same: no trifle
-  double shadow = 0.03;  ///< gain over that of a larger cause of the same equation
   double probability = 0.5;  ///< least probability of a name or one of its alternatives
-  std::size_t causes = 4;     ///< more together, or as many where something is left, are a stand-in
-                              ///< for something without a name
   std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has
@@ -32,8 +28,6 @@ struct Limits {
   double trifle() const { return quarter * interest; }
   /// Share of another's gain: as good as that.
   double alike() const { return 1.0 - tenth; }
-  /// Share of the misfit that the causes have to remove.
-  double explained() const { return 1.0 - quarter; }
   /// Mean square over the noise's from which noise is the smaller part.
   double as_noise() const { return 1.0 / half; }
 };
@@ -41,7 +35,6 @@ struct Limits {
 /// A cause that was accepted, with the others that did nearly as well.
 struct Accepted {
   Trial trial;
-  double first_gain = 0.0;    ///< when it was accepted; trial.gain is what it is worth at the end
   std::vector<Trial> rivals;  ///< alternatives, best first
   std::vector<Trial> field;   ///< every other cause refined in that round
   bool material = true;       ///< else it is in the model, but too small to be named
@@ -57,7 +50,6 @@ struct Selection {
   std::vector<Trial> last_field;        ///< of the round in which none was accepted
   std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual
   std::vector<CoordinateScore> after;   ///< of the final residual
-  double removed = 0.0;                 ///< share of the misfit that the causes remove
   bool remainder = false;               ///< something is left beyond noise
   bool unproved = false;  ///< a cause took much of the misfit, and none on recordings held out
   std::vector<Accepted> withdrawn;         ///< causes that explain too little to be named
