@@ -31,7 +31,7 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
   if (!s.accepted.empty()) return most;
   for (const Accepted& a : s.immaterial) {
     if (a.trial.cause.row->of_baseline()) continue;
-    const bool seen = a.trial.net_gain >= limits.gain && a.trial.removed > limits.tenth;
+    const bool seen = a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.tenth;
     if (seen && (most == nullptr || a.trial.removed > most->trial.removed)) most = &a;
   }
   return most;

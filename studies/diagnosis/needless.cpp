@@ -1,8 +1,11 @@
 #include "diagnosis/needless.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
+#include "diagnosis/explanation.hpp"
+#include "diagnosis/form_error.hpp"
 #include "flexspline/core/in_parallel.hpp"
 
 namespace flexspline::studies {
@@ -28,6 +31,34 @@ bool usurps(const Accepted& small, const Accepted& large) {
 std::optional<std::size_t> usurper_of(const Selection& s, std::size_t large) {
   for (std::size_t k = 0; k < s.accepted.size(); ++k) {
     if (s.accepted[large].material && usurps(s.accepted[k], s.accepted[large])) return k;
+  }
+  return std::nullopt;
+}
+
+bool share_equation(const Accepted& a, const Accepted& b) {
+  return std::ranges::any_of(a.trial.cause.form->at, [&](Equation e) {
+    return std::ranges::count(b.trial.cause.form->at, e) > 0;
+  });
+}
+
+// Whether what a small cause explains may be no more than the form of a larger one of its equation.
+bool hides(const Frame& frame, const Selection& s, std::size_t large, std::size_t small,
+           const std::vector<double>& loss, const Limits& limits) {
+  const Accepted& a = s.accepted[small];
+  const Accepted& b = s.accepted[large];
+  if (large == small || !share_equation(a, b)) return false;
+  if (!stands_for(a, b) && !stands_for(b, a)) return loss[small] < limits.shadow * loss[large];
+  const double share = loss[small] / std::max(a.first_gain, b.first_gain);
+  if (share < limits.tenth) return true;
+  return share < 2.0 * limits.tenth &&
+         share_beyond_form(frame, s.final, small, large) < limits.tenth;
+}
+
+// The larger cause that hides another.
+std::optional<std::size_t> shadow_on(const Frame& frame, const Selection& s, std::size_t i,
+                                     const std::vector<double>& loss, const Limits& limits) {
+  for (std::size_t k = 0; k < s.accepted.size(); ++k) {
+    if (hides(frame, s, k, i, loss, limits)) return k;
   }
   return std::nullopt;
 }
@@ -71,22 +102,52 @@ bool fitted_better(const Frame& frame, const Limits& limits, Selection& s, const
   return false;
 }
 
+bool leaves_something(const Frame& frame, Findings findings, const ModelFit& fit,
+                      const Limits& limits) {
+  findings.fit = fit;
+  return std::ranges::any_of(locate(frame, findings),
+                             [&](const CoordinateScore& c) { return is_left(c, limits); });
+}
+
 /// The cause that may go, and why; none where each is needed.
 struct Needless {
   std::optional<std::size_t> cause;
   std::string_view because;
 };
 
-Needless needless(const Limits& limits, const Selection& s, const Worth& worth) {
+// One in a shadow stays where nothing is left with it, most of its worth no error in the form of
+// the larger one explains, and something is left without it or its worth is that of a name.
+bool stays(const Frame& frame, const Limits& limits, const Selection& s, const Worth& worth,
+           std::size_t cause, std::size_t large) {
+  return share_beyond_form(frame, s.final, cause, large) > limits.half &&
+         (worth.loss[cause] > limits.named_gain ||
+          leaves_something(frame, s.final, worth.without[cause], limits));
+}
+
+// The least first.
+Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
+                  const Worth& worth) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     if (is_no_part(*s.accepted[i].trial.cause.row, s.final.fit.model.coefficients[i])) {
       return {i, "it is more than a part of the baseline"};
     }
   }
-  const auto least =
-      static_cast<std::size_t>(std::ranges::min_element(worth.loss) - worth.loss.begin());
-  if (worth.loss[least] > limits.gain) return {};
-  return {usurper_of(s, least).value_or(least), "the others explain it as well"};
+  std::vector<std::size_t> order(worth.loss.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return worth.loss[i]; });
+  if (!(worth.loss[order.front()] > limits.gain)) {
+    return {usurper_of(s, order.front()).value_or(order.front()), "the others explain it as well"};
+  }
+  const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
+  for (std::size_t i : order) {
+    if (s.accepted[i].trial.cause.row->of_baseline()) continue;
+    const auto large = shadow_on(frame, s, i, worth.loss, limits);
+    if (!large) continue;
+    const bool may_stay = complete && !usurps(s.accepted[i], s.accepted[*large]);
+    if (may_stay && stays(frame, limits, s, worth, i, *large)) continue;
+    return {i, "what it explains is no more than the form of a larger one may miss"};
+  }
+  return {};
 }
 
 }  // namespace
@@ -100,7 +161,7 @@ Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selecti
       --chances;
       continue;
     }
-    const auto [cause, because] = needless(limits, s, *worth);
+    const auto [cause, because] = needless(frame, limits, s, *worth);
     if (!cause) return {};
     s.final.fit = std::move(worth->without[*cause]);
     s.accepted[*cause].withdrawn_because = because;

@@ -35,7 +35,7 @@ std::optional<RippleName> proved_name(const Frame& frame, const Selection& s,
   RippleName name = name_of(frame, ripple);
   if (name.row == nullptr || ripple.share < limits.quarter) return std::nullopt;
   auto proof = prove_ripple(frame, s.final);
-  if (!proof || proof->statistic < limits.gain) return std::nullopt;
+  if (!proof || proof->statistic < limits.named_gain) return std::nullopt;
   name.proof = std::move(*proof);
   name.evidence = {.ratio = name.proof.ratio,
                    .over_noise = holdout.over_noise(),
@@ -50,7 +50,7 @@ std::optional<RippleName> proved_name(const Frame& frame, const Selection& s,
 std::optional<RippleFinding> find_ripple(const Frame& frame, const Selection& s,
                                          const HoldoutProof& holdout, const Limits& limits) {
   const auto ripple = ripple_left(frame, s.final);
-  if (!ripple || ripple->statistic < limits.gain || ripple->share < limits.tenth) {
+  if (!ripple || ripple->statistic < limits.named_gain || ripple->share < limits.tenth) {
     return std::nullopt;
   }
   RippleFinding finding{*ripple, false, std::nullopt};

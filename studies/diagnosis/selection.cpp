@@ -21,12 +21,14 @@ bool admissible(const Trial& trial, const Limits& limits) {
 
 Accepted accepted_as(Trial trial, const Limits& limits) {
   Accepted accepted;
-  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.interest;
+  accepted.first_gain = trial.gain;
+  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.interest &&
+                      trial.net_gain >= limits.named_gain;
   accepted.trial = std::move(trial);
   return accepted;
 }
 
-// The best, or a part of the baseline beside which it gains less than a cause has to.
+// The best, or a part of the baseline beside which it gains less than a name has to.
 std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const Limits& limits) {
   const auto may_be = [&](const Trial& trial) {
     return admissible(trial, limits) && std::ranges::count(s.redundant, trial.cause.row) == 0;
@@ -34,7 +36,7 @@ std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const L
   const auto best = std::ranges::find_if(trials, may_be);
   const auto part = std::ranges::find_if(trials, [&](const Trial& trial) {
     return may_be(trial) && trial.cause.row->of_baseline() &&
-           trial.gain > best->gain - limits.gain;
+           trial.gain > best->gain - limits.named_gain;
   });
   return static_cast<std::size_t>((part != trials.end() ? part : best) - trials.begin());
 }

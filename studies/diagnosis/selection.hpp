@@ -14,10 +14,12 @@ namespace flexspline::studies {
 struct Limits {
   double gain = 18.0;        ///< least net gain of a cause, least gain of one on recordings held
                              ///< out, and statistic of a coordinate that says something is left
+  double named_gain = 80.0;  ///< least net gain of a cause that is named, or stands in a shadow
   double interest = 0.008;   ///< least size of a cause, share of the largest torque
   double half = 0.5;         ///< the larger part: of a gain, a misfit, a torque or its variance
   double quarter = 0.25;     ///< least share of the fast changes in steady strokes that is named; of
                              ///< a peak, a trifle
+  double shadow = 0.03;  ///< gain over that of a larger cause of the same equation
   double tenth = 0.1;    ///< of a residual, a gain, or of what could stand for the same: no trifle
   double probability = 0.5;  ///< least probability of a name or one of its alternatives
   std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most
@@ -35,6 +37,7 @@ struct Limits {
 /// A cause that was accepted, with the others that did nearly as well.
 struct Accepted {
   Trial trial;
+  double first_gain = 0.0;    ///< when it was accepted; trial.gain is what it is worth at the end
   std::vector<Trial> rivals;  ///< alternatives, best first
   std::vector<Trial> field;   ///< every other cause refined in that round
   bool material = true;       ///< else it is in the model, but too small to be named

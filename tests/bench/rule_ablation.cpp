@@ -37,8 +37,10 @@ struct Rule {
 std::vector<Rule> rules() {
   return {
       {"all rules", [](Limits&) {}},
+      {"named_gain", [](Limits& l) { l.named_gain = l.gain; }},
       {"half", [](Limits& l) { l.half = kNever; }},
-      {"tenth", [](Limits& l) { l.tenth = 0.0; }},
+      {"tenth", [](Limits& l) { l.tenth = l.shadow; }},
+      {"shadow", [](Limits& l) { l.shadow = l.tenth = 0.0; }},
       {"quarter", [](Limits& l) { l.quarter = 1.0; }},
       {"probability", [](Limits& l) { l.probability = 0.0; }},
       {"incidents", [](Limits& l) { l.incidents = 0; }},

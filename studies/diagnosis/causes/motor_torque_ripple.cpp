@@ -11,14 +11,16 @@ using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
 
-std::vector<Shape> turns(const Frame&) {
+std::vector<Shape> turns_up_to(double highest) {
   return {{.name = "order",
            .unit = "1",
            .lower = 1.0,
-           .upper = kHighestOrder,
+           .upper = highest,
            .discrete = true,
            .meaning = "of a turn of the motor"}};
 }
+
+std::vector<Shape> turns(const Frame&) { return turns_up_to(kHighestOrder); }
 
 std::vector<Shape> turns_and_zero(const Frame& f) {
   auto shapes = turns(f);
@@ -56,8 +58,37 @@ Columns ripple_under_current_followed(Equation, const Frame& f, const Reference&
   return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]) * f.smooth_motor_torque);
 }
 
-// Where smoothing takes away a tenth and more of the highest order.
-bool follows(const Frame& f) { return geared(f) && kept(f, kHighestOrder).minCoeff() < 0.9; }
+// Whether the larger part of the rows in which smoothing keeps a ripple lies in stretches of a whole
+// period and more. What is kept of less, about a reversal, is no ripple to anyone.
+bool shows_periods(const Frame& f, double order) {
+  const Eigen::Array<bool, Eigen::Dynamic, 1> seen = kept(f, order) > 0.5;
+  Eigen::Index rows = 0, in_periods = 0;
+  for (const Segment& s : f.segments) {
+    Eigen::Index first = s.first;
+    for (Eigen::Index r = s.first; r <= s.first + s.count; ++r) {
+      if (r < s.first + s.count && seen[r]) continue;
+      const auto stretch = f.motor_angle.segment(first, r - first);
+      const double turned = r > first ? stretch.maxCoeff() - stretch.minCoeff() : 0.0;
+      rows += r - first;
+      if (order * turned > 2.0 * std::numbers::pi) in_periods += r - first;
+      first = r + 1;
+    }
+  }
+  return 2 * in_periods > rows;
+}
+
+std::vector<Shape> turns_that_show(const Frame& f) {
+  double highest = kHighestOrder;
+  while (highest > 1.0 && !shows_periods(f, highest)) --highest;
+  return turns_up_to(highest);
+}
+
+// Where smoothing takes away a tenth and more of an order that shows.
+bool follows(const Frame& f) {
+  if (!geared(f)) return false;
+  const double highest = turns_that_show(f).front().upper;
+  return shows_periods(f, highest) && kept(f, highest).minCoeff() < 0.9;
+}
 
 // A channel that ripples was zeroed at some angle of the motor: there it shows nothing.
 Columns ripple_of_channel(Equation, const Frame& f, const Reference&, Values shape) {
@@ -138,7 +169,7 @@ CauseRow describe_motor_torque_ripple() {
                                  "follows",
                      .rigs = kTurning,
                      .at = {Equation::motor},
-                     .shapes = turns,
+                     .shapes = turns_that_show,
                      .terms = cogging_terms,
                      .columns = ripple_followed,
                      .where = follows,
@@ -147,7 +178,7 @@ CauseRow describe_motor_torque_ripple() {
                                  "motor follows",
                      .rigs = kTurning,
                      .at = {Equation::motor},
-                     .shapes = turns,
+                     .shapes = turns_that_show,
                      .terms = ripple_terms,
                      .columns = ripple_under_current_followed,
                      .where = follows,
