@@ -1,6 +1,7 @@
 #include "diagnosis/confirm.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "diagnosis/unnamed.hpp"
@@ -10,49 +11,12 @@ namespace {
 
 constexpr std::size_t kMostAlternatives = 2;
 
-// One that could not be judged is not proved.
-bool is_proved(const CauseProof& cause, const Limits& limits) { return cause.gain >= limits.gain; }
-
-// Of the causes that are not proved the one that does worst.
-std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
-  std::optional<std::size_t> worst;
-  for (std::size_t i = 0; i < proof.causes.size(); ++i) {
-    if (is_proved(proof.causes[i], limits)) continue;
-    if (!worst || !(proof.causes[i].name.ratio <= proof.causes[*worst].name.ratio)) worst = i;
-  }
-  return worst;
-}
-
 // What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
 bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
                        std::size_t cause) {
   const double gain = s.accepted[cause].trial.gain;
   return gain > limits.half * (chi_square(frame, s.final, s.final.fit) + gain);
 }
-
-// What explains the same signal nearly as well as a cause that fails on recordings held out, if it
-// holds there itself.
-Result<std::optional<Selection>> with_proven_rival(const Frame& frame, const Limits& limits,
-                                                   Selection s, std::size_t cause) {
-  auto& rivals = s.accepted[cause].rivals;
-  std::erase_if(rivals, [&](const Trial& t) {
-    return std::ranges::any_of(s.final.fit.model.causes,
-                               [&](const ActiveCause& c) { return c.row == t.cause.row; });
-  });
-  if (rivals.empty()) return std::nullopt;
-  auto other =
-      with_rival(frame, limits, s, cause,
-                 "it does not lower the error on recordings held out, an alternative does");
-  if (!other) return tl::unexpected(other.error());
-  if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
-    return std::nullopt;
-  }
-  const auto proof = prove(frame, *other, limits.threads);
-  if (!proof) return tl::unexpected(proof.error());
-  if (!is_proved(proof->causes.back(), limits)) return std::nullopt;
-  return std::move(*other);
-}
-
 
 // What is read from the final model beside a cause's proof.
 void complete(const Frame& frame, const Selection& s, Proof& proof) {
@@ -69,19 +33,61 @@ void complete(const Frame& frame, const Selection& s, Proof& proof) {
   }
 }
 
-// The least probable of the causes that are more likely wrong, their alternatives too.
-std::optional<std::size_t> improbable(const Proof& proof, const Limits& limits) {
+Result<Proof> complete_proof(const Frame& frame, const Limits& limits, const Selection& s) {
+  auto proof = prove(frame, s, limits.threads);
+  if (proof) complete(frame, s, *proof);
+  return proof;
+}
+
+// That the name or one of its alternatives is right; 0 of one that could not be judged.
+double probability_of(const CauseProof& cause) {
+  NameEvidence either = cause.name;
+  either.alternatives = 0;
+  const double probability = probability_right(either);
+  return std::isnan(probability) ? 0.0 : probability;
+}
+
+bool is_proved(const CauseProof& cause, const Limits& limits) { return cause.gain >= limits.gain; }
+
+bool stands(const CauseProof& cause, const Limits& limits) {
+  return is_proved(cause, limits) && probability_of(cause) >= limits.probability;
+}
+
+// Of the causes that do not stand the least probable.
+std::optional<std::size_t> doubtful(const Proof& proof, const Limits& limits) {
   std::optional<std::size_t> least;
-  double lowest = limits.probability;
   for (std::size_t i = 0; i < proof.causes.size(); ++i) {
-    NameEvidence name = proof.causes[i].name;
-    name.alternatives = 0;
-    const double probability = probability_right(name);
-    if (probability >= lowest) continue;
-    lowest = probability;
-    least = i;
+    if (stands(proof.causes[i], limits)) continue;
+    if (!least || probability_of(proof.causes[i]) < probability_of(proof.causes[*least])) least = i;
   }
   return least;
+}
+
+// What explains the same signal nearly as well as a cause that does not stand, if it stands itself.
+Result<std::optional<Selection>> with_rival_that_stands(const Frame& frame, const Limits& limits,
+                                                        Selection s, std::size_t cause) {
+  auto& rivals = s.accepted[cause].rivals;
+  std::erase_if(rivals, [&](const Trial& t) {
+    return std::ranges::any_of(s.final.fit.model.causes,
+                               [&](const ActiveCause& c) { return c.row == t.cause.row; });
+  });
+  if (rivals.empty()) return std::nullopt;
+  auto other = with_rival(frame, limits, s, cause,
+                          "recordings held out do not confirm it, an alternative they do");
+  if (!other) return tl::unexpected(other.error());
+  if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
+    return std::nullopt;
+  }
+  const auto proof = complete_proof(frame, limits, *other);
+  if (!proof) return tl::unexpected(proof.error());
+  if (!stands(proof->causes.back(), limits)) return std::nullopt;
+  return std::move(*other);
+}
+
+std::string_view why_not(const CauseProof& cause, const Limits& limits) {
+  if (is_proved(cause, limits)) return "it is more likely wrong than right";
+  return cause.gain > 0.0 ? "it hardly lowers the error on recordings held out"
+                          : "it does not lower the error on recordings held out";
 }
 
 }  // namespace
@@ -98,29 +104,20 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
-    auto proof = prove(frame, s, limits.threads);
+    auto proof = complete_proof(frame, limits, s);
     if (!proof) return proof;
-    const auto worst = unconfirmed(*proof, limits);
-    if (!worst) {
-      complete(frame, s, *proof);
-      const auto least = improbable(*proof, limits);
-      if (!least) return proof;
-      const auto left_out =
-          leave_out(frame, limits, s, *least, "it is more likely wrong than right");
-      if (!left_out) return tl::unexpected(left_out.error());
-      continue;
-    }
-    auto exchanged = with_proven_rival(frame, limits, s, *worst);
+    const auto worst = doubtful(*proof, limits);
+    if (!worst) return proof;
+    auto exchanged = with_rival_that_stands(frame, limits, s, *worst);
     if (!exchanged) return tl::unexpected(exchanged.error());
     if (*exchanged) {
       s = std::move(**exchanged);
       continue;
     }
-    s.unproved = s.unproved || leaves_a_question(frame, limits, s, *worst);
-    const auto left_out = leave_out(frame, limits, s, *worst,
-                                    proof->causes[*worst].gain > 0.0
-                                        ? "it hardly lowers the error on recordings held out"
-                                        : "it does not lower the error on recordings held out");
+    const CauseProof& cause = proof->causes[*worst];
+    s.unproved = s.unproved ||
+                 (!is_proved(cause, limits) && leaves_a_question(frame, limits, s, *worst));
+    const auto left_out = leave_out(frame, limits, s, *worst, why_not(cause, limits));
     if (!left_out) return tl::unexpected(left_out.error());
   }
 }

@@ -68,7 +68,7 @@ struct Frame {
   Eigen::ArrayXd time;   ///< of the recording
   Eigen::ArrayXd clock;  ///< shared by the set, from 0
   Eigen::ArrayXd motor_angle, motor_speed, motor_acceleration;
-  Eigen::ArrayXd motor_bandwidth;  ///< DriveChannels::motor_bandwidth of the recording
+  Eigen::ArrayXd motor_bandwidth;  ///< DriveChannels::motor_bandwidth; empty: nothing is smoothed
   Eigen::ArrayXd load_angle, load_speed, load_acceleration;
   Eigen::ArrayXd torsion, torsion_rate, torsion_acceleration;
   Eigen::ArrayXd torque;                      ///< measured, across the transmission

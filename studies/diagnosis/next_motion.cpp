@@ -39,8 +39,7 @@ Frame empty_like(const Frame& like, Index rows) {
         &f.motor_torque_rate}) {
     channel->setZero(rows);
   }
-  f.motor_bandwidth =
-      ArrayXd::Constant(rows, std::numeric_limits<double>::infinity());  // nothing is smoothed
+  f.motor_bandwidth.resize(0);
   f.velocity = ArrayXd::Constant(rows, kNotComputed);
   f.usable = ArrayXd::Ones(rows);
   return f;

@@ -137,16 +137,6 @@ TEST(HeldOut, OfTheEndsWhatTheRestReaches) {
   EXPECT_EQ(held.tail(1000).minCoeff(), 1.0);
 }
 
-Selection selection_with(CoordinateScore before, CoordinateScore after) {
-  Selection s;
-  s.before = {std::move(before)};
-  s.after = {std::move(after)};
-  Accepted a;
-  a.trial = trial_of(0.1, 0.1, false);
-  s.accepted = {a};
-  return s;
-}
-
 TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   const Limits limits;
   const auto left = [&](double gain, double removed, bool beside_a_cause = false) {
@@ -166,27 +156,6 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   EXPECT_FALSE(left(gain, 0.4 * removed)) << "it orders next to nothing";
   EXPECT_FALSE(left(gain, removed, true)) << "it may mend the form of what is named";
   EXPECT_EQ(left_unnamed(Selection{}, limits), nullptr);
-}
-
-TEST(Explanation, ACauseStandsAloneWhereItClearsWhatItsCoordinateOrdered) {
-  const Limits limits;
-  const CoordinateScore strong{Equation::torsion, "reversal_memory", 10.0 * limits.gain,
-                               3.0 * limits.tenth, ""};
-  CoordinateScore weak = strong;
-  weak.share = 0.1 * limits.tenth;
-  CoordinateScore elsewhere = strong;
-  elsewhere.coordinate = "time";
-  CoordinateScore other_equation = strong;
-  other_equation.equation = Equation::motor;
-  const auto stands = [&](const CoordinateScore& before, const CoordinateScore& after) {
-    const Selection s = selection_with(before, after);
-    return clears_its_coordinate(s, s.accepted.front(), limits);
-  };
-  EXPECT_TRUE(stands(strong, weak));
-  EXPECT_FALSE(stands(weak, weak)) << "nothing was ordered by it";
-  EXPECT_FALSE(stands(elsewhere, weak)) << "something else was";
-  EXPECT_FALSE(stands(other_equation, weak)) << "of another equation";
-  EXPECT_FALSE(stands(strong, elsewhere)) << "something is still ordered";
 }
 
 TEST(Forms, OverTheMotorsAngleOfAServoNeedItsGearRatio) {

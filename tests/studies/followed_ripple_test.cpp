@@ -75,6 +75,7 @@ TEST(FollowedRipple, IsWhatTheSmoothedAccelerationLeaves) {
   frame.motor_speed = array(channels->motor_speed);
   frame.motor_bandwidth = ArrayXd::Constant(frame.motor_angle.size(), channels->motor_bandwidth);
   frame.time = array(channels->time);
+  frame.segments = {{"turn", 0, frame.time.size()}};
   ASSERT_GT(kOrder * frame.motor_speed.maxCoeff(), 1.5 * channels->motor_bandwidth)
       << "the ripple has to be too fast for the smoothing";
   const ArrayXd residual = array(channels->motor_torque) -

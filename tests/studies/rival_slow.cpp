@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/prove.hpp"
+#include "diagnosis/confirm.hpp"
 #include "diagnosis/spelled.hpp"
 #include "drive_frame.hpp"
 
@@ -26,7 +26,6 @@ class Rivals : public testing::Test {
     auto made = make_frame(hidden.recordings, kRows);
     ASSERT_TRUE(made) << made.error().message();
     frame_ = std::move(*made);
-    limits_.held_out_share = 0.36;
   }
 
   // Causes tried on the baseline, the hidden one first, the least of the others behind it.
@@ -64,7 +63,7 @@ TEST_F(Rivals, OfACauseThatFailsTakesItsPlaceWhereItHolds) {
   EXPECT_LT(proof->holdout.ratio, 0.8);
   ASSERT_THAT(ids(s.withdrawn), testing::SizeIs(1));
   EXPECT_THAT(std::string(s.withdrawn.front().withdrawn_because),
-              testing::HasSubstr("an alternative"));
+              testing::HasSubstr("an alternative they do"));
 }
 
 TEST_F(Rivals, OfACauseThatHoldsStayBehindIt) {
@@ -82,11 +81,32 @@ TEST_F(Rivals, ThatFailAsWellAreNotNamed) {
   EXPECT_TRUE(s.accepted.empty());
 }
 
+TEST_F(Rivals, StandWithANameThatIsMoreLikelyRightThanWrong) {
+  Selection s = accepted(0, 1);
+  auto proof = confirm(frame_, limits_, s);
+  ASSERT_TRUE(proof) << proof.error().message();
+  ASSERT_EQ(proof->causes.size(), 1U);
+  const CauseProof& cause = proof->causes.front();
+  EXPECT_EQ(cause.name.alternatives, 1U);
+  EXPECT_GT(cause.gain, 100.0 * limits_.gain);
+  EXPECT_LT(cause.name.over_noise, cause.name.before_over_noise);
+
+  limits_.probability = 1.0;
+  Selection doubted = accepted(0, 1);
+  proof = confirm(frame_, limits_, doubted);
+  ASSERT_TRUE(proof) << proof.error().message();
+  EXPECT_TRUE(doubted.accepted.empty());
+  ASSERT_THAT(ids(doubted.withdrawn), testing::ElementsAre(kHidden));
+  EXPECT_THAT(std::string(doubted.withdrawn.front().withdrawn_because),
+              testing::HasSubstr("more likely wrong"));
+  EXPECT_TRUE(doubted.remainder) << "what it explained is still there";
+}
+
 TEST_F(Rivals, ThatAreNamedThemselvesAreNoAlternatives) {
   Selection s = accepted(0, 1);
   const std::string rival(s.accepted.front().rivals.front().cause.row->id);
   Proof proof;
-  proof.causes = {{.ratio = 0.5}, {.ratio = 0.5}};
+  proof.causes.resize(2);
   EXPECT_THAT(spelled_causes(frame_, s, proof).front().alternatives, testing::ElementsAre(rival));
   Accepted other;
   other.trial = s.accepted.front().rivals.front();

@@ -47,6 +47,7 @@ Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values 
 // smoothed, J theta''_s = H (tau_m - tau_f - ripple): of the smooth torques all is left, of the
 // ripple what the smoothing H keeps.
 ArrayXd kept(const Frame& f, double order) {
+  if (f.motor_bandwidth.size() == 0) return ArrayXd::Ones(f.rows());
   return 1.0 / (1.0 + (order * f.motor_speed / f.motor_bandwidth).pow(6.0));
 }
 
