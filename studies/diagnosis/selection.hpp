@@ -10,7 +10,7 @@
 namespace flexspline::studies {
 
 /// Limits of the decision, in chi square over the noise's colour and in shares. Where they come
-/// from: docs/diagnosis.md and docs/decisions/0029.
+/// from: docs/diagnosis.md, docs/decisions/0029 and 0031.
 struct Limits {
   double gain = 18.0;        ///< least net gain of a cause, least gain of one on recordings held
                              ///< out, and statistic of a coordinate that says something is left
