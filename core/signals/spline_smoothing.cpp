@@ -187,10 +187,9 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
                      "check the values and the unit of the channel");
     }
     smooth.push_back(signal_of(best[s], basis, time, signals[s]));
-    smooth.back().bandwidth =
-        bandwidth_of(best[s].penalty,
-                     static_cast<double>(time.size()) / static_cast<double>(intervals),
-                     (time.back() - time.front()) / static_cast<double>(intervals));
+    smooth.back().bandwidth = bandwidth_of(
+        best[s].penalty, static_cast<double>(time.size()) / static_cast<double>(intervals),
+        (time.back() - time.front()) / static_cast<double>(intervals));
   }
   return smooth;
 }

@@ -21,8 +21,8 @@ struct NameEvidence {
 /// noise, from 0.001 to 1, l what is left over beside the cause, from 0.001 to 0.3, k the
 /// alternatives. The b are a logistic regression on names that were given on simulated cases of two
 /// generators and on effects added to recordings by others, right and wrong ones
-/// (docs/decisions/0031): a frequency among such cases, of which one in four hides something outside
-/// the catalogue or in a single recording. NaN where a number is.
+/// (docs/decisions/0031): a frequency among such cases, of which one in four hides something
+/// outside the catalogue or in a single recording. NaN where a number is.
 double probability_right(const NameEvidence& evidence);
 
 }  // namespace flexspline::studies

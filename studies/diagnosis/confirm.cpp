@@ -115,8 +115,8 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
       continue;
     }
     const CauseProof& cause = proof->causes[*worst];
-    s.unproved = s.unproved ||
-                 (!is_proved(cause, limits) && leaves_a_question(frame, limits, s, *worst));
+    s.unproved =
+        s.unproved || (!is_proved(cause, limits) && leaves_a_question(frame, limits, s, *worst));
     const auto left_out = leave_out(frame, limits, s, *worst, why_not(cause, limits));
     if (!left_out) return tl::unexpected(left_out.error());
   }

@@ -19,7 +19,7 @@ struct Decision {
   std::optional<NestedProof> nested;            ///< by outer fold
   std::vector<DiagnosedSeries> taken_away;      ///< recordings that were judged once
   Verdict verdict = Verdict::undecided;
-  std::optional<UnnamedPart> unnamed;  ///< of what is left
+  std::optional<UnnamedPart> unnamed;    ///< of what is left
   std::optional<Undecidable> undecided;  ///< why no verdict stands
   std::vector<std::string> notes;
 };

@@ -3,25 +3,6 @@
 #include <algorithm>
 
 namespace flexspline::studies {
-namespace {
-
-// Sums of squares of an equation with the same weights: before, after, and what noise asks for.
-struct Misfit {
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-};
-
-Misfit misfit_of(const Findings& base, const Findings& final, Equation equation) {
-  const std::size_t e = index_of(equation);
-  const auto& weight = final.weight[e];
-  return {(base.fit.residual[e] * weight).square().sum(),
-          (final.fit.residual[e] * weight).square().sum(),
-          static_cast<double>((weight > 0.0).count())};
-}
-
-}  // namespace
-
 bool is_left(const CoordinateScore& score, const Limits& limits) {
   return score.statistic > limits.gain && score.share > limits.tenth;
 }
@@ -40,8 +21,10 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
 double worst_misfit(const Frame& frame, const Findings& findings) {
   double worst = 0.0;
   for (Equation equation : frame.equations) {
-    const Misfit m = misfit_of(findings, findings, equation);
-    worst = std::max(worst, m.after / m.noise);
+    const std::size_t e = index_of(equation);
+    const auto& weight = findings.weight[e];
+    const double rows = static_cast<double>((weight > 0.0).count());
+    worst = std::max(worst, (findings.fit.residual[e] * weight).square().sum() / rows);
   }
   return worst;
 }

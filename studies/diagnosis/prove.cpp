@@ -167,8 +167,7 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
         {.name = {.ratio = std::sqrt(with.chi_square / without.chi_square),
                   .over_noise = std::sqrt(with.chi_square / with.noise),
                   .before_over_noise = std::sqrt(base.chi_square / base.noise)},
-         .placebo_ratio =
-             instead > 0.0 ? std::sqrt(instead / base.chi_square) : kNotComputed,
+         .placebo_ratio = instead > 0.0 ? std::sqrt(instead / base.chi_square) : kNotComputed,
          .gain = without.chi_square - with.chi_square});
   }
 }

@@ -17,11 +17,11 @@ struct Limits {
   double named_gain = 80.0;  ///< least net gain of a cause that is named, or stands in a shadow
   double interest = 0.008;   ///< least size of a cause, share of the largest torque
   double half = 0.5;         ///< the larger part: of a gain, a misfit, a torque or its variance
-  double quarter = 0.25;     ///< least share of the fast changes in steady strokes that is named; of
-                             ///< a peak, a trifle
-  double shadow = 0.03;  ///< gain over that of a larger cause of the same equation
-  double tenth = 0.1;    ///< of a residual, a gain, or of what could stand for the same: no trifle
-  double probability = 0.5;  ///< least probability of a name or one of its alternatives
+  double quarter = 0.25;  ///< least share of the fast changes in steady strokes that is named; of
+                          ///< a peak, a trifle
+  double shadow = 0.03;   ///< gain over that of a larger cause of the same equation
+  double tenth = 0.1;     ///< of a residual, a gain, or of what could stand for the same: no trifle
+  double probability = 0.5;   ///< least probability of a name or one of its alternatives
   std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has

@@ -2,8 +2,8 @@
 // equation is integrated.
 #include <cmath>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "diagnosis/cause.hpp"
 #include "diagnosis/model.hpp"

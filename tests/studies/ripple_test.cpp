@@ -114,7 +114,8 @@ Diagnosis said_of(double order, double amplitude, Index from = 0) {
   Diagnosis d;
   d.tried = {{.effect = "kinematic_error", .round = 1, .outcome = "gains no more than noise would"},
              {.effect = "backlash", .round = 1, .outcome = "gains no more than noise would"}};
-  const auto ripple = find_ripple(joint.frame, s, {.rmse_after = 1.0, .noise_floor = 1.0}, Limits{});
+  const auto ripple =
+      find_ripple(joint.frame, s, {.rmse_after = 1.0, .noise_floor = 1.0}, Limits{});
   EXPECT_TRUE(ripple.has_value());
   if (ripple) spell_ripple(joint.frame, s, *ripple, d);
   return d;

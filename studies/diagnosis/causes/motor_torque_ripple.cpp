@@ -59,8 +59,8 @@ Columns ripple_under_current_followed(Equation, const Frame& f, const Reference&
   return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]) * f.smooth_motor_torque);
 }
 
-// Whether the larger part of the rows in which smoothing keeps a ripple lies in stretches of a whole
-// period and more. What is kept of less, about a reversal, is no ripple to anyone.
+// Whether the larger part of the rows in which smoothing keeps a ripple lies in stretches of a
+// whole period and more. What is kept of less, about a reversal, is no ripple to anyone.
 bool shows_periods(const Frame& f, double order) {
   const Eigen::Array<bool, Eigen::Dynamic, 1> seen = kept(f, order) > 0.5;
   Eigen::Index rows = 0, in_periods = 0;

@@ -72,8 +72,8 @@ struct Cause {
   double size = kNotComputed;           ///< the same, SI
   double size_ci95_lower = kNotComputed;
   double size_ci95_upper = kNotComputed;
-  std::string unit{};                   ///< of size: Nm, or N on a specimen that moves along a line
-  std::string size_of{};                ///< which torque size_fraction is a fraction of
+  std::string unit{};     ///< of size: Nm, or N on a specimen that moves along a line
+  std::string size_of{};  ///< which torque size_fraction is a fraction of
   std::string equation;
   std::vector<CauseParameter> parameters;
   std::vector<std::string> alternatives;  ///< at most two that explain the same signal as well
