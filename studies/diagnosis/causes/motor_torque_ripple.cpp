@@ -10,6 +10,7 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
+constexpr double kLeastSeen = 0.25;  // of all rows: docs/decisions/0032
 
 std::vector<Shape> turns_up_to(double highest) {
   return {{.name = "order",
@@ -59,23 +60,22 @@ Columns ripple_under_current_followed(Equation, const Frame& f, const Reference&
   return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]) * f.smooth_motor_torque);
 }
 
-// Whether the larger part of the rows in which smoothing keeps a ripple lies in stretches of a
-// whole period and more. What is kept of less, about a reversal, is no ripple to anyone.
+// Whether a quarter of all rows lies in stretches in which smoothing keeps a whole period of a
+// ripple and more. What is kept about reversals alone is no ripple, but what friction does there.
 bool shows_periods(const Frame& f, double order) {
   const Eigen::Array<bool, Eigen::Dynamic, 1> seen = kept(f, order) > 0.5;
-  Eigen::Index rows = 0, in_periods = 0;
+  Eigen::Index in_periods = 0;
   for (const Segment& s : f.segments) {
     Eigen::Index first = s.first;
     for (Eigen::Index r = s.first; r <= s.first + s.count; ++r) {
       if (r < s.first + s.count && seen[r]) continue;
       const auto stretch = f.motor_angle.segment(first, r - first);
       const double turned = r > first ? stretch.maxCoeff() - stretch.minCoeff() : 0.0;
-      rows += r - first;
       if (order * turned > 2.0 * std::numbers::pi) in_periods += r - first;
       first = r + 1;
     }
   }
-  return 2 * in_periods > rows;
+  return static_cast<double>(in_periods) > kLeastSeen * static_cast<double>(f.rows());
 }
 
 std::vector<Shape> turns_that_show(const Frame& f) {
