@@ -92,8 +92,8 @@ TEST(FollowedRipple, IsWhatTheSmoothedAccelerationLeaves) {
     }
   }
   ASSERT_EQ(fits.size(), 2U) << "all of it, and what is followed";
-  EXPECT_NEAR(fits[1].amplitude, kRipple, 0.1 * kRipple);
-  EXPECT_LT(fits[1].left, 0.5 * fits[0].left);
+  EXPECT_NEAR(fits[1].amplitude, kRipple, 0.1 * kRipple) << "H is of first order in the penalty";
+  EXPECT_LT(fits[1].left, 0.5 * fits[0].left) << "most of what is left is the form's, not noise";
 }
 
 }  // namespace

@@ -63,12 +63,15 @@ Columns ripple_under_current_followed(Equation, const Frame& f, const Reference&
 // Whether a quarter of all rows lies in stretches in which smoothing keeps a whole period of a
 // ripple and more. What is kept about reversals alone is no ripple, but what friction does there.
 bool shows_periods(const Frame& f, double order) {
-  const Eigen::Array<bool, Eigen::Dynamic, 1> seen = kept(f, order) > 0.5;
+  const auto seen = [&](Eigen::Index r) {  // kept by half and more
+    return f.motor_bandwidth.size() == 0 ||
+           order * std::abs(f.motor_speed[r]) < f.motor_bandwidth[r];
+  };
   Eigen::Index in_periods = 0;
   for (const Segment& s : f.segments) {
     Eigen::Index first = s.first;
     for (Eigen::Index r = s.first; r <= s.first + s.count; ++r) {
-      if (r < s.first + s.count && seen[r]) continue;
+      if (r < s.first + s.count && seen(r)) continue;
       const auto stretch = f.motor_angle.segment(first, r - first);
       const double turned = r > first ? stretch.maxCoeff() - stretch.minCoeff() : 0.0;
       if (order * turned > 2.0 * std::numbers::pi) in_periods += r - first;
