@@ -50,7 +50,7 @@ IntegratedBasis::IntegratedBasis(std::span<const double> interior_knots) {
       const double second = 8.0 * (y1 - 2.0 * y2 + y3) / (width * width);
       const double first = (y3 - y1) / (0.5 * width) - second * width;
       const double at_left = y2 - first * 0.5 * width - second * 0.25 * width * width;
-      table_[i * intervals_ + j] = {at_left, first, second};
+      table_[i * intervals_ + j] = {at_left, first, second, first / 2.0, second / 3.0};
       starts_[j * size_ + i] = integral;
       integral += width * (at_left + width * (first / 2.0 + width * second / 3.0));
     }
@@ -71,7 +71,7 @@ void IntegratedBasis::values(double u, std::span<double> out) const {
   for (std::size_t i = 0; i < size_; ++i) out[i] = start[i];
   for (std::size_t i = j; i < j + kActive; ++i) {
     const Quadratic& q = piece(i, j);
-    out[i] += d * (q.q0 + d * (q.q1 / 2.0 + d * q.q2 / 3.0));
+    out[i] += d * (q.q0 + d * (q.half_q1 + d * q.third_q2));
     if (u > 1.0) out[i] += (u - 1.0) * (q.q0 + d * (q.q1 + d * q.q2));
   }
 }
@@ -94,8 +94,8 @@ std::vector<std::array<double, 4>> IntegratedBasis::pieces(
       const Quadratic& q = piece(i, j);
       p[0] += coefficients[i] * starts_[j * size_ + i];
       p[1] += coefficients[i] * q.q0;
-      p[2] += coefficients[i] * q.q1 / 2.0;
-      p[3] += coefficients[i] * q.q2 / 3.0;
+      p[2] += coefficients[i] * q.half_q1;
+      p[3] += coefficients[i] * q.third_q2;
     }
   }
   const auto& last = result[intervals_ - 1];

@@ -26,7 +26,8 @@ constexpr Index kDryWidths = 7;
 constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
 constexpr double kWidest = 0.1;
 constexpr double kFree = -std::numeric_limits<double>::infinity();
-constexpr std::array kRoundings = {1.0 / 3.0, 1.0, 3.0, 9.0, 27.0};  // of a sign, over its rate
+constexpr std::size_t kRoundings = 5;    // of a sign, each three times as wide as the one before
+constexpr double kSharpest = 1.0 / 3.0;  // of them, over the sign's rate
 
 std::vector<double> even_knots(int count) {
   std::vector<double> knots;
@@ -44,15 +45,20 @@ std::vector<double> rate_knots(const Frame& frame) {
   return knots;
 }
 
-// sgn(x) I_i(|x|) for every integrated spline i.
+// sgn(x) I_i(|x|) for every integrated spline i. Rows are written some at a time: they lie across
+// the columns.
 void odd_columns(const IntegratedBasis& basis, const ArrayXd& x, Eigen::Ref<MatrixXd> out) {
-  std::vector<double> value(basis.size());
-  for (Index r = 0; r < x.size(); ++r) {
-    basis.values(std::abs(x[r]), value);
-    const double sign = x[r] < 0.0 ? -1.0 : 1.0;
-    for (std::size_t k = 0; k < value.size(); ++k) {
-      out(r, static_cast<Index>(k)) = sign * value[k];
+  constexpr Index kTogether = 64;
+  const Index size = static_cast<Index>(basis.size());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> some(kTogether, size);
+  for (Index first = 0; first < x.size(); first += kTogether) {
+    const Index count = std::min(kTogether, x.size() - first);
+    for (Index r = 0; r < count; ++r) {
+      auto row = some.row(r);
+      basis.values(std::abs(x[first + r]), {row.data(), basis.size()});
+      if (x[first + r] < 0.0) row = -row;
     }
+    out.middleRows(first, count) = some.topRows(count);
   }
 }
 
@@ -117,8 +123,11 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  for (std::size_t k = 0; k < widths.size(); ++k) {
-    c.columns.col(f + static_cast<Index>(k)) = rounded_sign(frame.torsion_rate, widths[k]);
+  // Each width is a third of the next: tanh(3u) = t (3 + t^2)/(1 + 3 t^2), t = tanh(u).
+  ArrayXd sign = rounded_sign(frame.torsion_rate, widths.back());
+  for (Index k = g - 2; k >= 0; --k) {
+    c.columns.col(f + k) = sign;
+    sign *= (3.0 + sign.square()) / (1.0 + 3.0 * sign.square());
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   return c;
@@ -164,7 +173,8 @@ std::vector<double> dry_widths(const Frame& frame) {
 
 std::vector<double> travelling_widths(std::span<const double> shape) {
   std::vector<double> widths;
-  for (const double one : kRoundings) widths.push_back(one * std::exp(shape[0]));
+  double width = kSharpest * std::exp(shape[0]);
+  for (std::size_t k = 0; k < kRoundings; ++k, width *= 3.0) widths.push_back(width);
   return widths;
 }
 
@@ -211,7 +221,7 @@ Frame motion_at(const Frame& frame, const std::vector<Index>& rows) {
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape) {
   BaselineColumns c = before_a_filter(frame, equation, shape);
-  if (frame.torque_lag > 0.0) LowPass(frame, frame.torque_lag).apply(c.columns);
+  if (frame.torque_lag > 0.0) shared_low_pass(frame, frame.torque_lag)->apply(c.columns);
   return c;
 }
 

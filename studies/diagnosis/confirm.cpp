@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "diagnosis/unnamed.hpp"
@@ -10,6 +11,8 @@ namespace flexspline::studies {
 namespace {
 
 constexpr std::size_t kMostAlternatives = 2;
+constexpr int kFinalSteps = 12;
+constexpr double kFinalFall = 1e-3;  // of chi square: a thirtieth of a parameter's deviation
 
 // What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
 bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
@@ -33,12 +36,6 @@ void complete(const Frame& frame, const Selection& s, Proof& proof) {
   }
 }
 
-Result<Proof> complete_proof(const Frame& frame, const Limits& limits, const Selection& s) {
-  auto proof = prove(frame, s, limits.threads);
-  if (proof) complete(frame, s, *proof);
-  return proof;
-}
-
 // That the name or one of its alternatives is right; 0 of one that could not be judged.
 double probability_of(const CauseProof& cause) {
   NameEvidence either = cause.name;
@@ -47,20 +44,44 @@ double probability_of(const CauseProof& cause) {
   return std::isnan(probability) ? 0.0 : probability;
 }
 
+// That which could not be judged is none.
+double held_out_gain(const CauseProof& cause) {
+  return std::isnan(cause.gain) ? -std::numeric_limits<double>::infinity() : cause.gain;
+}
+
 bool is_proved(const CauseProof& cause, const Limits& limits) { return cause.gain >= limits.gain; }
 
 bool stands(const CauseProof& cause, const Limits& limits) {
   return is_proved(cause, limits) && probability_of(cause) >= limits.probability;
 }
 
-// Of the causes that do not stand the least probable.
-std::optional<std::size_t> doubtful(const Proof& proof, const Limits& limits) {
-  std::optional<std::size_t> least;
-  for (std::size_t i = 0; i < proof.causes.size(); ++i) {
-    if (stands(proof.causes[i], limits)) continue;
-    if (!least || probability_of(proof.causes[i]) < probability_of(proof.causes[*least])) least = i;
-  }
-  return least;
+// Of the causes that the held-out recordings do not confirm the one that helps least there.
+std::optional<std::size_t> unproved(const Proof& proof, const Limits& limits) {
+  const auto least = std::ranges::min_element(proof.causes, {}, held_out_gain);
+  if (least == proof.causes.end() || is_proved(*least, limits)) return std::nullopt;
+  return least - proof.causes.begin();
+}
+
+// Of those that are more likely wrong than right the least probable.
+std::optional<std::size_t> improbable(const Proof& proof, const Limits& limits) {
+  const auto least = std::ranges::min_element(proof.causes, {}, probability_of);
+  if (least == proof.causes.end() || stands(*least, limits)) return std::nullopt;
+  return least - proof.causes.begin();
+}
+
+/// The proof of a selection, and the cause that it takes to go.
+struct Checked {
+  Proof proof;
+  std::optional<std::size_t> doubtful;
+};
+
+Result<Checked> checked(const Frame& frame, const Limits& limits, const Selection& s) {
+  auto proof = prove(frame, s, limits.threads);
+  if (!proof) return tl::unexpected(proof.error());
+  if (const auto cause = unproved(*proof, limits)) return Checked{std::move(*proof), cause};
+  complete(frame, s, *proof);
+  const auto cause = improbable(*proof, limits);
+  return Checked{std::move(*proof), cause};
 }
 
 // What explains the same signal nearly as well as a cause that does not stand, if it stands itself.
@@ -78,8 +99,10 @@ Result<std::optional<Selection>> with_rival_that_stands(const Frame& frame, cons
   if (other->accepted.size() < s.accepted.size() || !other->accepted.back().material) {
     return std::nullopt;
   }
-  const auto proof = complete_proof(frame, limits, *other);
+  auto proof = prove(frame, *other, limits.threads);
   if (!proof) return tl::unexpected(proof.error());
+  if (!is_proved(proof->causes.back(), limits)) return std::nullopt;
+  complete(frame, *other, *proof);
   if (!stands(proof->causes.back(), limits)) return std::nullopt;
   return std::move(*other);
 }
@@ -104,20 +127,25 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
-    auto proof = complete_proof(frame, limits, s);
-    if (!proof) return proof;
-    const auto worst = doubtful(*proof, limits);
-    if (!worst) return proof;
-    auto exchanged = with_rival_that_stands(frame, limits, s, *worst);
+    auto check = checked(frame, limits, s);
+    if (!check) return tl::unexpected(check.error());
+    auto& [proof, doubtful] = *check;
+    if (!doubtful) {
+      const auto fitted = fit_all(frame, s.final, kFinalSteps, kFinalFall);
+      if (!fitted) return tl::unexpected(fitted.error());
+      locate_misfit(frame, limits, s);
+      return std::move(proof);
+    }
+    auto exchanged = with_rival_that_stands(frame, limits, s, *doubtful);
     if (!exchanged) return tl::unexpected(exchanged.error());
     if (*exchanged) {
       s = std::move(**exchanged);
       continue;
     }
-    const CauseProof& cause = proof->causes[*worst];
+    const CauseProof& cause = proof.causes[*doubtful];
     s.unproved =
-        s.unproved || (!is_proved(cause, limits) && leaves_a_question(frame, limits, s, *worst));
-    const auto left_out = leave_out(frame, limits, s, *worst, why_not(cause, limits));
+        s.unproved || (!is_proved(cause, limits) && leaves_a_question(frame, limits, s, *doubtful));
+    const auto left_out = leave_out(frame, s, *doubtful, why_not(cause, limits));
     if (!left_out) return tl::unexpected(left_out.error());
   }
 }

@@ -12,8 +12,9 @@ namespace flexspline::studies {
 std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& selection);
 
 /// The proof of the causes that stand: those that recordings held out confirm, and whose name, or
-/// one of its alternatives, is right with limits.probability at least. The worst is withdrawn, or a
-/// rival that holds takes its place, and all is proved anew.
+/// one of its alternatives, is right with limits.probability at least. The worst is withdrawn, what
+/// is not confirmed before what is improbable, or a rival that holds takes its place, and all is
+/// proved anew; at the end the misfit is located.
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

@@ -7,7 +7,6 @@
 
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/explanation.hpp"
-#include "diagnosis/folds.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -43,10 +42,11 @@ Result<void> prove_once(const RecordingSet& all, const std::vector<std::string>&
 
 // The whole search again in outer folds. Recordings that are too few to be searched without a part
 // of them are no failure.
-void prove_in_folds(const RecordingSet& all, const Limits& limits,
-                    const DiagnosisProgress& progress, Decision& d) {
-  if (one_loop(d.finding.frame)) return;
-  auto nested = nested_proof(all, d.finding, limits, kMostRows, progress);
+void prove_in_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                    Decision& d) {
+  const auto& [frame, selection, proof] = d.finding;
+  if (folds.empty() || one_loop(frame)) return;
+  auto nested = nested_proof(whole, folds, equation_to_prove(frame, selection));
   if (!nested) {
     d.notes.push_back(
         fmt::format("nothing is proved in outer folds: {}", nested.error().message()));
@@ -86,20 +86,17 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   auto frame = searched_frame(all, settings.holdout);
   if (!frame) return tl::unexpected(frame.error());
 
-  // Noise, baseline, discrepancy, names, and the folds that choose among them. Each outer fold's
-  // search is taken for as long as that in all recordings.
-  const bool nests = settings.nested && settings.holdout.empty();
-  const auto searches = 1 + (nests ? outer_folds(*frame).size() : 0);
-  const double searched = 0.9 / static_cast<double>(searches);
-  auto finding = find_causes(std::move(*frame), limits, part_of(progress, 0.0, searched / 0.9));
-  if (!finding) return tl::unexpected(finding.error());
+  // Noise, baseline, discrepancy, names, and the folds that choose among them.
+  const bool nests = settings.nested && settings.holdout.empty() && !one_loop(*frame);
+  auto searches = search_all(all, *frame, nests, limits, kMostRows, part_of(progress, 0.0, 0.9));
+  if (!searches.finding) return tl::unexpected(searches.finding.error());
   Decision d;
-  d.finding = std::move(*finding);
+  d.finding = std::move(*searches.finding);
   d.proof = d.finding.proof.holdout;
   d.ripple = find_ripple(d.finding.frame, d.finding.selection, d.proof, limits);
 
   // Proof.
-  if (nests) prove_in_folds(all, limits, part_of(progress, searched, 0.9), d);
+  prove_in_folds(*frame, searches.folds, d);
   if (!settings.holdout.empty()) {
     const auto judged = prove_once(all, settings.holdout, d);
     if (!judged) return tl::unexpected(judged.error());

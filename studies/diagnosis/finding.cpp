@@ -1,5 +1,7 @@
 #include "diagnosis/finding.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "diagnosis/confirm.hpp"
@@ -10,24 +12,35 @@
 namespace flexspline::studies {
 namespace {
 
+constexpr int kSteps = 8;
+
 using Progress = std::function<void(double, std::string_view)>;
 
 // One loop proves no cause: there is nothing to hold it against.
-Result<void> leave_out_unproved(const Frame& frame, const Limits& limits, Selection& selection) {
+Result<void> leave_out_unproved(const Frame& frame, Selection& selection) {
   while (one_loop(frame) && !selection.accepted.empty()) {
-    const auto left_out = leave_out(frame, limits, selection, selection.accepted.size() - 1,
-                                    "one loop cannot prove it");
+    const auto left_out =
+        leave_out(frame, selection, selection.accepted.size() - 1, "one loop cannot prove it");
     if (!left_out) return left_out;
   }
   return {};
 }
 
+// The model of another selection, or of a first one, on this frame.
+Result<Findings> first_model(const Frame& frame, const Limits& limits, const Progress& progress,
+                             const Selection* from) {
+  if (from == nullptr) return select_causes(frame, limits, progress).map(&Selection::final);
+  Findings model = from->final;
+  return refresh(frame, model, kSteps).map([&] { return std::move(model); });
+}
+
 // With every recording counted from where the causes fit it best.
 Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& progress,
                           const Selection* from) {
-  auto selection = select_causes(frame, limits, progress, from);
-  if (!selection || !frame.own_zeros) return selection;
-  auto moved = with_fitted_zeros(frame, selection->final);
+  if (!frame.own_zeros) return select_causes(frame, limits, progress, from);
+  const auto model = first_model(frame, limits, progress, from);
+  if (!model) return tl::unexpected(model.error());
+  auto moved = with_fitted_zeros(frame, *model);
   if (!moved) return tl::unexpected(moved.error());
   frame = std::move(*moved);
   return select_causes(frame, limits, progress);
@@ -46,16 +59,27 @@ Result<Selection> beside_incidents(Frame& frame, const Limits& limits, const Pro
   return selection;
 }
 
-Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress,
-                         const Selection* from = nullptr) {
-  auto selection = beside_incidents(frame, limits, progress, from);
-  if (!selection) return tl::unexpected(selection.error());
+Result<Finding> confirmed(Frame frame, const Limits& limits, const Progress& progress,
+                          Selection selection) {
   if (progress) progress(0.75, "proving on recordings held out");
-  const auto proved = leave_out_unproved(frame, limits, *selection);
+  const auto settled = settle_baseline(frame, selection);
+  if (!settled) return tl::unexpected(settled.error());
+  const auto proved = leave_out_unproved(frame, selection);
   if (!proved) return tl::unexpected(proved.error());
-  auto proof = confirm(frame, limits, *selection);
+  auto proof = confirm(frame, limits, selection);
   if (!proof) return tl::unexpected(proof.error());
-  return Finding{std::move(frame), std::move(*selection), std::move(*proof)};
+  return Finding{std::move(frame), std::move(selection), std::move(*proof)};
+}
+
+// With a firm spring, where that leaves a gap.
+Result<std::optional<Finding>> with_gap(const Finding& free_f, const Limits& limits,
+                                        const Progress& progress) {
+  Frame frame = with_firm_spring(free_f.frame);
+  auto selection = beside_incidents(frame, limits, progress, &free_f.selection);
+  if (!selection) return tl::unexpected(selection.error());
+  if (!has_a_gap(*selection)) return std::nullopt;
+  return confirmed(std::move(frame), limits, progress, std::move(*selection))
+      .map([](Finding&& finding) { return std::optional(std::move(finding)); });
 }
 
 std::string gap_in_words(const Finding& free_f, const Finding& gap) {
@@ -70,13 +94,15 @@ std::string gap_in_words(const Finding& free_f, const Finding& gap) {
 }  // namespace
 
 Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& progress) {
-  auto free_f = found_in(std::move(frame), limits, progress);
+  auto selection = beside_incidents(frame, limits, progress, nullptr);
+  if (!selection) return tl::unexpected(selection.error());
+  auto free_f = confirmed(std::move(frame), limits, progress, std::move(*selection));
   if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection)) return free_f;
-  auto gap = found_in(with_firm_spring(free_f->frame), limits, progress, &free_f->selection);
-  if (!gap) return gap;
-  if (!tells_a_gap(gap->selection, free_f->proof, gap->proof)) return free_f;
-  gap->frame.notes.push_back(gap_in_words(*free_f, *gap));
-  return gap;
+  auto gap = with_gap(*free_f, limits, progress);
+  if (!gap) return tl::unexpected(gap.error());
+  if (!*gap || !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof)) return free_f;
+  (*gap)->frame.notes.push_back(gap_in_words(*free_f, **gap));
+  return std::move(**gap);
 }
 
 }  // namespace flexspline::studies

@@ -34,7 +34,7 @@ double Frame::largest_torque(Equation equation) const {
 ArrayXd Frame::filtered(const ArrayXd& signal, double time_constant) const {
   if (!(time_constant > 0.0)) return signal;
   Eigen::MatrixXd column = signal.matrix();
-  LowPass(*this, time_constant).apply(column);
+  shared_low_pass(*this, time_constant)->apply(column);
   return column.array();
 }
 

@@ -10,9 +10,10 @@ namespace {
 constexpr double kMiddle = 0.1;
 constexpr double kSoft = 0.25;  // softer than any spring of a gear that a catalogue states
 
+bool is_a_gap(const Trial& trial) { return trial.cause.row->id == "backlash"; }
+
 bool names_a_gap(const Selection& s) {
-  return std::ranges::any_of(s.accepted,
-                             [](const Accepted& a) { return a.trial.cause.row->id == "backlash"; });
+  return std::ranges::any_of(s.accepted, [](const Accepted& a) { return is_a_gap(a.trial); });
 }
 
 }  // namespace
@@ -32,6 +33,12 @@ double softness(const Frame& frame, const Selection& s) {
 
 bool may_hide_a_gap(const Frame& frame, const Selection& s) {
   return !names_a_gap(s) && softness(frame, s) < kSoft;
+}
+
+bool has_a_gap(const Selection& s) {
+  return names_a_gap(s) || std::ranges::any_of(s.accepted, [](const Accepted& a) {
+           return std::ranges::any_of(a.rivals, is_a_gap);
+         });
 }
 
 bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap) {

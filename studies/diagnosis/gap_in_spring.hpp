@@ -15,6 +15,9 @@ double softness(const Frame& frame, const Selection& selection);
 /// True where no gap is named and f is softer in its middle than springs of gears are.
 bool may_hide_a_gap(const Frame& frame, const Selection& selection);
 
+/// True where a gap is among the causes or what may take their place.
+bool has_a_gap(const Selection& selection);
+
 /// True where the model with a firm spring names a gap and predicts recordings held out as well as
 /// that with the free one does, for all that they can tell: its error lies within the interval of
 /// 95 % of the other's. Of two such models the one stands whose spring is one.

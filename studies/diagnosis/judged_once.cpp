@@ -54,7 +54,7 @@ ArrayXd taken_away(const Frame& frame, const ArrayXd& held) {
 }
 
 Judged all_rows(Frame whole, const ArrayXd& held, const Frame& searched) {
-  Judged judged{std::move(whole), {}, {}, {}, {}, {}};
+  Judged judged{std::move(whole), {}, {}, {}};
   Frame& f = judged.frame;
   judged.held = held * f.usable;
   f.usable *= 1.0 - taken_away(f, held);
@@ -121,21 +121,15 @@ Result<RecordingSet> without(const RecordingSet& set, const std::vector<std::str
   return rest;
 }
 
-Result<Judged> judge(Frame whole, const ArrayXd& held, const Finding& finding, Equation equation) {
+Result<Judged> judge(Frame whole, const ArrayXd& held, const Finding& finding) {
   const auto& [searched, selection, known] = finding;
-  if (!searched.has(equation)) {
-    return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
-  }
   Judged judged = all_rows(std::move(whole), held, searched);
-  const auto before = fitted_again(judged.frame, searched, selection.baseline);
+  auto before = fitted_again(judged.frame, searched, selection.baseline);
   if (!before) return tl::unexpected(before.error());
-  const auto after = fitted_again(judged.frame, searched, selection.final);
+  auto after = fitted_again(judged.frame, searched, selection.final);
   if (!after) return tl::unexpected(after.error());
-  const std::size_t e = index_of(equation);
-  judged.residual_before = before->residual[e];
-  judged.residual_after = after->residual[e];
-  judged.prediction_before = before->prediction[e];
-  judged.prediction_after = after->prediction[e];
+  judged.before = std::move(*before);
+  judged.after = std::move(*after);
   return judged;
 }
 
@@ -163,11 +157,13 @@ Result<JudgedOnce> judged_once(const RecordingSet& all, const std::vector<std::s
   for (const Segment& s : whole->segments) {
     if (is_one_of(ids, s.id)) rows.segment(s.first, s.count).setOnes();
   }
-  const auto judged = judge(std::move(*whole), rows, finding, equation);
+  const auto judged = judge(std::move(*whole), rows, finding);
   if (!judged) return tl::unexpected(judged.error());
-  const auto& [frame, held, before, after, without_causes, with_causes] = *judged;
-  JudgedOnce once{proof_on(frame, held, equation, before, after),
-                  series_of(judged_frame(frame, held), equation, without_causes, with_causes)};
+  const auto& [frame, held, before, after] = *judged;
+  const std::size_t e = index_of(equation);
+  JudgedOnce once{
+      proof_on(frame, held, equation, before.residual[e], after.residual[e]),
+      series_of(judged_frame(frame, held), equation, before.prediction[e], after.prediction[e])};
   once.proof.recordings = ids;
   for (DiagnosedSeries& series : once.series) series.split = Split::holdout;
   return once;

@@ -6,20 +6,17 @@ namespace flexspline::studies {
 
 /// What a search that never saw them leaves of the rows that were taken away.
 struct Judged {
-  Frame frame;                                         ///< of all recordings
-  Eigen::ArrayXd held;                                 ///< usable rows that were taken away
-  Eigen::ArrayXd residual_before, residual_after;      ///< of the baseline and of what was found
-  Eigen::ArrayXd prediction_before, prediction_after;  ///< all rows
+  Frame frame;             ///< of all recordings
+  Eigen::ArrayXd held;     ///< usable rows that were taken away
+  ModelFit before, after;  ///< the baseline and what was found, all rows
 };
 
 /// Every parameter is fitted once more to the rows that the search had, whose causes and forms
-/// stand, and the others are read off once, in one equation. whole: the frame of all recordings, as
-/// it was made; held: 1 in each row that was taken away. From its first such row on nothing of a
-/// recording is fitted. Where mountings have zeros of their own, each recording that was taken away
-/// is counted from where it is unloaded.
-/// Errors: those of fits; numerics, where the search had no such equation.
-Result<Judged> judge(Frame whole, const Eigen::ArrayXd& held, const Finding& finding,
-                     Equation equation);
+/// stand, and the others are read off once. whole: the frame of all recordings, as it was made;
+/// held: 1 in each row that was taken away. From its first such row on nothing of a recording is
+/// fitted. Where mountings have zeros of their own, each recording that was taken away is counted
+/// from where it is unloaded. Errors: those of fits.
+Result<Judged> judge(Frame whole, const Eigen::ArrayXd& held, const Finding& finding);
 
 /// Errors of these residuals on the rows marked 1, at the output, with the interval of their ratio.
 HoldoutProof proof_on(const Frame& frame, const Eigen::ArrayXd& held, Equation equation,

@@ -21,6 +21,7 @@ constexpr int kBins = 20;
 constexpr int kDirectedBins = 10;
 constexpr int kGridBins = 5;
 constexpr double kHighestOrder = 40.0;
+constexpr Index kOfATurn = 4;  // steps between two orders that a travel tells apart
 constexpr double kRidge = 1e-9;
 
 // Indicator columns of equally filled bins, each times a factor.
@@ -148,34 +149,50 @@ class Scan {
     scores_.push_back(std::move(s));
   }
 
+  struct Order {
+    double per_turn;
+    bool with_sign;  ///< of the motion
+  };
+
+  // Of the multiples of a step, as long as there is a row for every period. From one to the next by
+  // a rotation, many times faster than sines, and over rows that stay in the cache.
+  Order strongest_order(const ArrayXd& direction, double step) const {
+    constexpr Index kTogether = 512;
+    const Index orders =
+        std::min(static_cast<Index>(kHighestOrder / step) - 1, kOfATurn * f_.rows());
+    const ArrayXd plain = residual_ * weight_.square();
+    Eigen::MatrixX4d sums = Eigen::MatrixX4d::Zero(orders, 4);
+    for (Index first = 0; first < f_.rows(); first += kTogether) {
+      const Index count = std::min(kTogether, f_.rows() - first);
+      const ArrayXd angle = f_.motor_angle.segment(first, count);
+      const ArrayXd y = plain.segment(first, count);
+      const ArrayXd directed = y * direction.segment(first, count);
+      const ArrayXd turn_s = (step * angle).sin(), turn_c = (step * angle).cos();
+      ArrayXd s = (2.0 * step * angle).sin(), c = (2.0 * step * angle).cos(), next(count);
+      for (Index k = 0; k < orders; ++k) {
+        sums.row(k) += Eigen::RowVector4d((s * y).sum(), (c * y).sum(), (s * directed).sum(),
+                                          (c * directed).sum());
+        next = s * turn_c + c * turn_s;
+        c = c * turn_c - s * turn_s;
+        s.swap(next);
+      }
+    }
+    Eigen::MatrixX2d power(orders, 2);
+    power << sums.leftCols<2>().rowwise().squaredNorm(),
+        sums.rightCols<2>().rowwise().squaredNorm();
+    Index order = 0, sign = 0;
+    power.maxCoeff(&order, &sign);
+    return {static_cast<double>(order + 2) * step, sign == 1};
+  }
+
   // Every order that the travel can tell apart: sine and cosine, plain and with the sign of motion.
   void turns() {
     const double travel = f_.motor_angle.maxCoeff() - f_.motor_angle.minCoeff();
     const double turns = travel / (2.0 * std::numbers::pi);
     if (turns < 1.0) return;
-    const double step = 0.25 / turns;
-    const double first = 2.0 * step;
+    const double step = 1.0 / (kOfATurn * turns);
     const ArrayXd direction = rounded_sign(f_.motor_speed, 0.01 * f_.speed_range);
-    double best = -1.0;
-    double order = first;
-    bool flips = false;
-    // From one order to the next by a rotation, many times faster than sines.
-    ArrayXd s = (first * f_.motor_angle).sin();
-    ArrayXd c = (first * f_.motor_angle).cos();
-    const ArrayXd turn_s = (step * f_.motor_angle).sin();
-    const ArrayXd turn_c = (step * f_.motor_angle).cos();
-    const ArrayXd plain = residual_ * weight_.square();
-    const ArrayXd directed = plain * direction;
-    for (double k = first; k <= kHighestOrder; k += step) {
-      for (const bool with_sign : {false, true}) {
-        const ArrayXd& y = with_sign ? directed : plain;
-        const double power = std::pow((s * y).sum(), 2) + std::pow((c * y).sum(), 2);
-        if (power > best) best = power, order = k, flips = with_sign;
-      }
-      const ArrayXd next = s * turn_c + c * turn_s;
-      c = c * turn_c - s * turn_s;
-      s = next;
-    }
+    const auto [order, flips] = strongest_order(direction, step);
     const double tried = 2.0 * kHighestOrder / step;
     const ArrayXd factor = flips ? direction : ArrayXd::Ones(f_.rows());
     score("motor_angle", sine_pair(f_.motor_angle, order, factor),

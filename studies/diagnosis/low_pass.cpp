@@ -10,8 +10,6 @@ namespace flexspline::studies {
 using Eigen::Index;
 
 namespace {
-constexpr Index kTogether = 8;  // columns: each waits for its own last row, not for another's
-
 // Two steps differ by the rounding of the times that they are differences of.
 bool same_step(double a, double b, double time) {
   return std::abs(a - b) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(time);
@@ -41,23 +39,35 @@ LowPass::LowPass(const Frame& frame, double time_constant)
   }
 }
 
-void LowPass::apply(Eigen::Ref<Eigen::MatrixXd> columns) const {
-  for (Index first = 0; first < columns.cols(); first += kTogether) {
-    const auto count = static_cast<std::size_t>(std::min(kTogether, columns.cols() - first));
-    std::array<double*, kTogether> column{};
-    for (std::size_t k = 0; k < count; ++k) {
-      column[k] = columns.col(first + static_cast<Index>(k)).data();
-    }
-    for (const Segment& s : segments_) {
-      std::array<double, kTogether> x{}, y{};
-      for (Index r = s.first; r < s.first + s.count; ++r) {
-        for (std::size_t k = 0; k < count; ++k) {
-          const double now = column[k][r];
-          y[k] = now_[r] * now + before_[r] * x[k] + kept_[r] * y[k];
-          x[k] = now;
-          column[k][r] = y[k];
-        }
+template <std::size_t count>
+void LowPass::apply_to(double* first_column, Index stride) const {
+  std::array<double*, count> column{};
+  for (std::size_t k = 0; k < count; ++k) column[k] = first_column + static_cast<Index>(k) * stride;
+  for (const Segment& s : segments_) {
+    std::array<double, count> x{}, y{};
+    for (Index r = s.first; r < s.first + s.count; ++r) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double now = column[k][r];
+        y[k] = now_[r] * now + before_[r] * x[k] + kept_[r] * y[k];
+        x[k] = now;
+        column[k][r] = y[k];
       }
+    }
+  }
+}
+
+// Several columns at a time: each waits for its own last row, not for another's.
+void LowPass::apply(Eigen::Ref<Eigen::MatrixXd> columns) const {
+  const Index stride = columns.outerStride();
+  for (Index k = 0; k < columns.cols();) {
+    double* const column = columns.data() + k * stride;
+    const Index left = columns.cols() - k;
+    if (left >= 8) {
+      apply_to<8>(column, stride), k += 8;
+    } else if (left >= 4) {
+      apply_to<4>(column, stride), k += 4;
+    } else {
+      apply_to<1>(column, stride), k += 1;
     }
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "diagnosis/frame.hpp"
 
 namespace flexspline::studies {
@@ -16,8 +18,14 @@ class LowPass {
   void apply(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
  private:
+  template <std::size_t count>
+  void apply_to(double* first_column, Eigen::Index stride) const;
+
   std::vector<Segment> segments_;
   Eigen::ArrayXd now_, before_, kept_;  ///< a, b, k by row
 };
+
+/// The filter of a frame, kept with its columns: the same for all that have its time constant.
+std::shared_ptr<const LowPass> shared_low_pass(const Frame& frame, double time_constant);
 
 }  // namespace flexspline::studies

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
-#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -17,20 +17,24 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-/// How far folds that are searched side by side are together.
-class FoldProgress {
- public:
-  FoldProgress(const DiagnosisProgress& progress, std::size_t folds)
-      : progress_(progress), share_(folds, 0.0) {}
+constexpr std::size_t kMostAtOnce = 2;  // each holds a frame, and has threads of its own
 
-  DiagnosisProgress of(std::size_t fold) {
+/// How far searches that run side by side are together.
+class JointProgress {
+ public:
+  JointProgress(const DiagnosisProgress& progress, std::size_t searches)
+      : progress_(progress), share_(searches, 0.0) {}
+
+  /// Of the search in all recordings (0), or without the k-th fold.
+  DiagnosisProgress of(std::size_t k) {
     if (!progress_) return {};
-    return [this, fold](double share, std::string_view stage) {
+    return [this, k](double share, std::string_view stage) {
       const std::scoped_lock lock(mutex_);
-      share_[fold] = share;
-      const double folds = static_cast<double>(share_.size());
-      progress_(std::accumulate(share_.begin(), share_.end(), 0.0) / folds,
-                fmt::format("without fold {} of {}: {}", fold + 1, share_.size(), stage));
+      share_[k] = share;
+      const double all = static_cast<double>(share_.size());
+      progress_(std::accumulate(share_.begin(), share_.end(), 0.0) / all,
+                k == 0 ? std::string(stage)
+                       : fmt::format("without fold {} of {}: {}", k, share_.size() - 1, stage));
     };
   }
 
@@ -40,59 +44,65 @@ class FoldProgress {
   std::vector<double> share_;
 };
 
-constexpr std::size_t kMostAtOnce = 2;  // each holds a frame, and its search has threads of its own
-
-struct SearchedFold {
-  Judged judged;
+std::vector<std::string> named_by(const Finding& finding) {
   std::vector<std::string> named;
-};
+  for (const Cause& cause : spelled_causes(finding.frame, finding.selection, finding.proof)) {
+    named.push_back(cause.effect);
+    named.insert(named.end(), cause.alternatives.begin(), cause.alternatives.end());
+  }
+  return named;
+}
 
 Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
-                                    const ArrayXd& fold, Equation equation, const Limits& limits,
-                                    Index most_rows, const DiagnosisProgress& progress) {
+                                    const ArrayXd& fold, const Limits& limits, Index most_rows,
+                                    const DiagnosisProgress& progress) {
   auto frame = make_frame(without_rows(all, whole, fold), most_rows);
   if (!frame) return tl::unexpected(frame.error());
   const auto finding = find_causes(std::move(*frame), limits, progress);
   if (!finding) return tl::unexpected(finding.error());
-  SearchedFold searched;
-  for (const Cause& cause : spelled_causes(finding->frame, finding->selection, finding->proof)) {
-    searched.named.push_back(cause.effect);
-    searched.named.insert(searched.named.end(), cause.alternatives.begin(),
-                          cause.alternatives.end());
-  }
-  auto judged = judge(whole, fold, *finding, equation);
+  auto judged = judge(whole, fold, *finding);
   if (!judged) return tl::unexpected(judged.error());
-  searched.judged = std::move(*judged);
-  return searched;
+  return SearchedFold{std::move(judged->held), std::move(judged->before.residual),
+                      std::move(judged->after.residual), named_by(*finding)};
 }
 
 }  // namespace
 
-Result<NestedProof> nested_proof(const RecordingSet& all, const Finding& finding,
-                                 const Limits& limits, Index most_rows,
-                                 const DiagnosisProgress& progress) {
-  const auto whole = make_frame(all, most_rows);
-  if (!whole) return tl::unexpected(whole.error());
-  const Equation equation = equation_to_prove(finding.frame, finding.selection);
-  const auto folds = outer_folds(*whole);
+Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, const Limits& limits,
+                    Index most_rows, const DiagnosisProgress& progress) {
+  const auto folds = nested ? outer_folds(whole) : std::vector<ArrayXd>{};
+  Searches searches;
+  searches.folds.resize(folds.size(), failure(ErrorCode::numerics, "nothing was searched"));
+  JointProgress steps(progress, 1 + folds.size());
+  in_parallel(1 + folds.size(), std::min(kMostAtOnce, threads_for(limits.threads)),
+              [&](std::size_t k) {
+                if (k == 0) {
+                  searches.finding = find_causes(whole, limits, steps.of(0));
+                } else {
+                  searches.folds[k - 1] =
+                      search_without(all, whole, folds[k - 1], limits, most_rows, steps.of(k));
+                }
+              });
+  return searches;
+}
+
+Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                                 Equation equation) {
+  const std::size_t e = index_of(equation);
   NestedProof nested;
-  ArrayXd held = ArrayXd::Zero(whole->rows());
+  ArrayXd held = ArrayXd::Zero(whole.rows());
   ArrayXd before = held, after = held;
-  FoldProgress steps(progress, folds.size());
-  std::vector<std::optional<Result<SearchedFold>>> searched(folds.size());
-  in_parallel(folds.size(), std::min(kMostAtOnce, threads_for(limits.threads)), [&](std::size_t k) {
-    searched[k].emplace(
-        search_without(all, *whole, folds[k], equation, limits, most_rows, steps.of(k)));
-  });
-  for (auto& one : searched) {
-    if (!*one) return tl::unexpected(one->error());
-    const auto& [judged, named] = **one;
-    nested.named.push_back(named);
-    held += judged.held;
-    before += judged.residual_before * judged.held;
-    after += judged.residual_after * judged.held;
+  for (const auto& fold : folds) {
+    if (!fold) return tl::unexpected(fold.error());
+    if (fold->after[e].size() == 0) {
+      return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
+    }
+    nested.named.push_back(fold->named);
+    held += fold->held;
+    before += fold->before[e] * fold->held;
+    after += fold->after[e] * fold->held;
   }
-  nested.proof = proof_on(*whole, held, equation, before, after);
+  nested.proof = proof_on(whole, held, equation, before, after);
   nested.proof.folds = static_cast<int>(folds.size());
   return nested;
 }

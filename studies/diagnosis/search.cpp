@@ -12,7 +12,6 @@ using Eigen::ArrayXd;
 
 constexpr int kBaselineSteps = 15;
 constexpr int kNoisePasses = 3;         // the noise is measured on a fit that it weights
-constexpr double kSmallestFall = 0.1;   // of chi square: a limit of 18 is not told from 18.1
 constexpr double kSmallestGain = 1e-5;  // of a sum of squares whose noise is not known
 constexpr double kMostGain = 1e-3;      // of a sum of squares, however much the noise is coloured
 constexpr double kSettled = 0.02;       // change of a noise level, of itself
@@ -60,9 +59,10 @@ ModelFit merged(ModelFit whole, const ModelFit& fit, const Part& part,
   return whole;
 }
 
-// A step that lowers the chi square by less is none; of the sum of squares, where noise is known.
+// A step that lowers the chi square by no more is none; of the sum of squares, where noise is
+// known.
 double smallest_gain(const Findings& findings, const ModelFit& fit,
-                     const std::vector<Equation>& equations) {
+                     const std::vector<Equation>& equations, double smallest_fall) {
   double sum = 0.0, colour = std::numeric_limits<double>::infinity();
   for (Equation equation : equations) {
     const EquationNoise& noise = findings.noise[index_of(equation)];
@@ -70,14 +70,15 @@ double smallest_gain(const Findings& findings, const ModelFit& fit,
     sum += fit.sum_of_squares[index_of(equation)];
     colour = std::min(colour, noise.colour);
   }
-  return sum > 0.0 ? std::min(kSmallestFall * colour / sum, kMostGain) : kSmallestGain;
+  return sum > 0.0 ? std::min(smallest_fall * colour / sum, kMostGain) : kSmallestGain;
 }
 
 Result<ModelFit> fit_part(const Frame& frame, const Findings& findings, const ModelFit& whole,
-                          const std::vector<Equation>& equations, int steps) {
+                          const std::vector<Equation>& equations, int steps,
+                          double smallest_fall = kSmallestFall) {
   const Part part = part_of(whole.model, equations);
   auto fit = fit_model(frame, findings.fit_weight, equations, part.model, findings.reference,
-                       {steps, smallest_gain(findings, whole, equations)});
+                       {steps, smallest_gain(findings, whole, equations, smallest_fall)});
   if (!fit) return fit;
   return merged(whole, *fit, part, equations);
 }
@@ -141,7 +142,7 @@ std::vector<Equation> linked_equations(const Frame& frame, const std::vector<Act
   return {reached.begin(), reached.end()};
 }
 
-Result<void> fit_all(const Frame& frame, Findings& findings, int steps) {
+Result<void> fit_all(const Frame& frame, Findings& findings, int steps, double smallest_fall) {
   ModelFit whole = findings.fit;
   std::set<Equation> done;
   for (Equation equation : frame.equations) {
@@ -149,7 +150,7 @@ Result<void> fit_all(const Frame& frame, Findings& findings, int steps) {
     CauseForm alone;
     alone.at = {equation};
     const auto group = linked_equations(frame, whole.model.causes, alone);
-    auto fit = fit_part(frame, findings, whole, group, steps);
+    auto fit = fit_part(frame, findings, whole, group, steps, smallest_fall);
     if (!fit) return tl::unexpected(fit.error());
     whole = std::move(*fit);
     done.insert(group.begin(), group.end());

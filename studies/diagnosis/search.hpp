@@ -29,6 +29,10 @@ struct Trial {
   double change = 0.0;   ///< largest change of the prediction over the same: what is seen of it
 };
 
+/// Fall of the chi square by which a step of a search's fits is worth another: a limit of 18 is not
+/// told from 18.5.
+constexpr double kSmallestFall = 0.5;
+
 /// The equations whose fit a form and a set of causes tie together.
 std::vector<Equation> linked_equations(const Frame& frame, const std::vector<ActiveCause>& causes,
                                        const CauseForm& form);
@@ -40,7 +44,8 @@ Result<Findings> fit_baseline(const Frame& frame);
 Result<void> refresh(const Frame& frame, Findings& findings, int steps);
 
 /// Every parameter of the model fitted anew with the weights that stand.
-Result<void> fit_all(const Frame& frame, Findings& findings, int steps);
+Result<void> fit_all(const Frame& frame, Findings& findings, int steps,
+                     double smallest_fall = kSmallestFall);
 
 /// The fit with one more cause; equations that it does not touch stay as they are.
 Result<ModelFit> extended(const Frame& frame, const Findings& findings, const ActiveCause& cause,

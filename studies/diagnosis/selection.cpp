@@ -47,6 +47,7 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
     if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
     const bool alike =
         trials[i].gain > limits.alike() * accepted.trial.gain && admissible(trials[i], limits);
+    trials[i].fit.prediction = {};  // dozens are kept: their residuals say it too
     (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
   }
   return accepted;
@@ -68,23 +69,6 @@ void put_immaterial_first(Selection& s) {
     }
   }
   s.accepted = std::move(material);
-}
-
-// The baseline that the causes are measured against: all but the material ones.
-Result<void> fit_baseline_again(const Frame& frame, Selection& s) {
-  if (s.immaterial.empty()) return {};
-  if (s.accepted.empty()) {
-    s.baseline = s.final;
-    return {};
-  }
-  Findings base = s.final;
-  for (std::size_t i = s.accepted.size(); i > 0; --i) {
-    auto fit = reduced(frame, base, s.immaterial.size() + i - 1, kRefreshSteps);
-    if (!fit) return tl::unexpected(fit.error());
-    base.fit = std::move(*fit);
-  }
-  s.baseline = std::move(base);
-  return refresh(frame, s.baseline, kRefreshSteps);
 }
 
 Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
@@ -120,12 +104,6 @@ Result<void> fit_again(const Frame& frame, Selection& s) {
   if (!s.accepted.empty()) return refresh(frame, s.final, kRefreshSteps);
   s.final = s.baseline;
   return {};
-}
-
-void conclude(const Frame& frame, const Limits& limits, Selection& s) {
-  s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
-  s.remainder = s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
-                worst_misfit(frame, s.final) > limits.as_noise();
 }
 
 // The causes of another selection, fitted to this frame.
@@ -167,22 +145,31 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   if (!cleared) return tl::unexpected(cleared.error());
   const auto plain = take_plain_forms(frame, limits, s);
   if (!plain) return tl::unexpected(plain.error());
-  put_immaterial_first(s);
-  const auto based = fit_baseline_again(frame, s);
-  if (!based) return tl::unexpected(based.error());
-  s.before = locate(frame, s.baseline);
-  conclude(frame, limits, s);
   return s;
 }
 
-Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& s, std::size_t cause,
+Result<void> settle_baseline(const Frame& frame, Selection& s) {
+  put_immaterial_first(s);
+  if (s.immaterial.empty()) return {};
+  if (s.accepted.empty()) {
+    s.baseline = s.final;
+    return {};
+  }
+  Findings base = s.final;
+  for (std::size_t i = s.accepted.size(); i > 0; --i) {
+    auto fit = reduced(frame, base, s.immaterial.size() + i - 1, kRefreshSteps);
+    if (!fit) return tl::unexpected(fit.error());
+    base.fit = std::move(*fit);
+  }
+  s.baseline = std::move(base);
+  return refresh(frame, s.baseline, kRefreshSteps);
+}
+
+Result<void> leave_out(const Frame& frame, Selection& s, std::size_t cause,
                        std::string_view because) {
   const auto taken = take_out(frame, s, cause, because);
   if (!taken) return taken;
-  const auto fitted = fit_again(frame, s);
-  if (!fitted) return fitted;
-  conclude(frame, limits, s);
-  return {};
+  return fit_again(frame, s);
 }
 
 Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection s,
@@ -199,8 +186,14 @@ Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection
   s.accepted.push_back(std::move(rival));
   const auto fitted = fit_again(frame, s);
   if (!fitted) return tl::unexpected(fitted.error());
-  conclude(frame, limits, s);
   return s;
+}
+
+void locate_misfit(const Frame& frame, const Limits& limits, Selection& s) {
+  s.before = locate(frame, s.baseline);
+  s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
+  s.remainder = s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
+                worst_misfit(frame, s.final) > limits.as_noise();
 }
 
 }  // namespace flexspline::studies

@@ -51,7 +51,7 @@ struct Selection {
   std::vector<Accepted> immaterial;  ///< significant, but too small to be named, or of the baseline
   std::vector<Accepted> accepted;
   std::vector<Trial> last_field;        ///< of the round in which none was accepted
-  std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual
+  std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual: locate_misfit()
   std::vector<CoordinateScore> after;   ///< of the final residual
   bool remainder = false;               ///< something is left beyond noise
   bool unproved = false;  ///< a cause took much of the misfit, and none on recordings held out
@@ -66,20 +66,25 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 bool is_taken_up(const Trial& trial, const Limits& limits);
 
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
-/// out again. What is too small to matter becomes part of the baseline. Causes that together leave
-/// most of the misfit are withdrawn. Where another selection of nearly the same frame is given, it
+/// out again. Where another selection of nearly the same frame is given, it
 /// goes on from its causes, and what was redundant there is not tried again.
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress,
                                 const Selection* from = nullptr);
 
-/// Withdraws one of the accepted causes, fits the others again and judges what they explain.
-Result<void> leave_out(const Frame& frame, const Limits& limits, Selection& selection,
-                       std::size_t cause, std::string_view because);
+/// What is too small to matter becomes part of the baseline that the causes are measured against.
+Result<void> settle_baseline(const Frame& frame, Selection& selection);
+
+/// Withdraws one of the accepted causes and fits the others again.
+Result<void> leave_out(const Frame& frame, Selection& selection, std::size_t cause,
+                       std::string_view because);
 
 /// The selection with the best rival of one of its accepted causes in that one's place, as the last
-/// cause, without rivals of its own; fitted and judged anew.
+/// cause, without rivals of its own; fitted anew.
 Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection selection,
                              std::size_t cause, std::string_view because);
+
+/// Where the baseline and the final model miss the recordings, and whether more than noise is left.
+void locate_misfit(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

@@ -4,6 +4,7 @@
 #include <list>
 #include <mutex>
 
+#include "diagnosis/low_pass.hpp"
 #include "diagnosis/model_columns.hpp"
 
 namespace flexspline::studies {
@@ -13,7 +14,8 @@ using Eigen::ArrayXd;
 
 constexpr double kSeen = 0.01;         // of a spline's height: rows that see less say nothing of it
 constexpr std::size_t kMostPlain = 4;  // some megabytes each
-constexpr std::size_t kMostWeighted = 16;  // a megabyte or two each
+constexpr std::size_t kMostWeighted = 8;  // a megabyte or two each
+constexpr std::size_t kMostFilters = 4;    // before and after a difference, and of another thread
 
 /// What columns depend on, as a sum of 128 bits: two sums by different multipliers.
 class Sum {
@@ -116,6 +118,7 @@ class KeptBaselines {
  public:
   Recent<BaselineColumns, kMostPlain> plain;
   Recent<WeightedBaseline, kMostWeighted> weighted;
+  Recent<LowPass, kMostFilters> filters;
 };
 
 std::shared_ptr<KeptBaselines> no_baselines_yet() { return std::make_shared<KeptBaselines>(); }
@@ -134,6 +137,15 @@ Eigen::VectorXd WeightedRows::of(const ArrayXd& signal) const {
     some[i] = signal[at[static_cast<std::size_t>(i)]] * weight[i];
   }
   return some;
+}
+
+std::shared_ptr<const LowPass> shared_low_pass(const Frame& frame, double time_constant) {
+  const auto build = [&] { return LowPass(frame, time_constant); };
+  if (frame.kept == nullptr) return std::make_shared<const LowPass>(build());
+  Sum sum;
+  sum.add(time_constant);
+  sum.add(frame.time);
+  return frame.kept->filters.get(sum, build);
 }
 
 std::shared_ptr<const BaselineColumns> shared_baseline(const Frame& frame, Equation equation,

@@ -42,12 +42,14 @@ class Rivals : public testing::Test {
     auto selection = select_causes(frame_, limits_, {});
     EXPECT_TRUE(selection) << selection.error().message();
     Selection s = *std::move(selection);
+    EXPECT_TRUE(settle_baseline(frame_, s));
     EXPECT_THAT(ids(s.accepted), testing::ElementsAre(kHidden));
     const auto trials = tried(s);
     Accepted& a = s.accepted.front();
     a.trial = trials.at(taken);
     a.rivals = {trials.at(rival)};
     s.final.fit = a.trial.fit;
+    EXPECT_TRUE(fit_all(frame_, s.final, 0));
     return s;
   }
 

@@ -32,6 +32,7 @@ class IntegratedBasis {
  private:
   struct Quadratic {  // B_i on one interval: q0 + q1 d + q2 d^2
     double q0, q1, q2;
+    double half_q1, third_q2;  // of its integral
   };
   const Quadratic& piece(std::size_t i, std::size_t interval) const {
     return table_[i * intervals_ + interval];
