@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kMostAlternatives = 2;
 constexpr int kFinalSteps = 12;
-constexpr double kFinalFall = 1e-3;  // of chi square: a thirtieth of a parameter's deviation
 
 // What explained much where it was fitted and nothing elsewhere leaves a question, not an answer.
 bool leaves_a_question(const Frame& frame, const Limits& limits, const Selection& s,
@@ -131,7 +130,7 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
     if (!check) return tl::unexpected(check.error());
     auto& [proof, doubtful] = *check;
     if (!doubtful) {
-      const auto fitted = fit_all(frame, s.final, kFinalSteps, kFinalFall);
+      const auto fitted = fit_all(frame, s.final, kFinalSteps, kJudgedFall);
       if (!fitted) return tl::unexpected(fitted.error());
       locate_misfit(frame, limits, s);
       return std::move(proof);

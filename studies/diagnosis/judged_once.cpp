@@ -88,7 +88,7 @@ Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Finding
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     findings.reference = reference_of(frame, findings.fit.model);
-    const auto fitted = fit_all(frame, findings, kSteps);
+    const auto fitted = fit_all(frame, findings, kSteps, kJudgedFall);
     if (!fitted) return tl::unexpected(fitted.error());
   }
   return findings.fit;

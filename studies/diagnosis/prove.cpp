@@ -73,7 +73,7 @@ Result<void> fit_both(const Frame& frame, const Selection& s, const ArrayXd& out
   fold.base = on_training(on_weights_of(s.baseline, s.final), out);
   fold.final = on_training(s.final, out);
   for (Findings* one : {&fold.base, &fold.final}) {
-    const auto done = fit_all(frame, *one, kSteps);
+    const auto done = fit_all(frame, *one, kSteps, kJudgedFall);
     if (!done) return done;
   }
   return {};

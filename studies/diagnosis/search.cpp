@@ -75,7 +75,7 @@ double smallest_gain(const Findings& findings, const ModelFit& fit,
 
 Result<ModelFit> fit_part(const Frame& frame, const Findings& findings, const ModelFit& whole,
                           const std::vector<Equation>& equations, int steps,
-                          double smallest_fall = kSmallestFall) {
+                          double smallest_fall = kSearchedFall) {
   const Part part = part_of(whole.model, equations);
   auto fit = fit_model(frame, findings.fit_weight, equations, part.model, findings.reference,
                        {steps, smallest_gain(findings, whole, equations, smallest_fall)});

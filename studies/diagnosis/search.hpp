@@ -29,9 +29,10 @@ struct Trial {
   double change = 0.0;   ///< largest change of the prediction over the same: what is seen of it
 };
 
-/// Fall of the chi square by which a step of a search's fits is worth another: a limit of 18 is not
-/// told from 18.5.
-constexpr double kSmallestFall = 0.5;
+/// Fall of the chi square by which a step of a fit is worth another: in the search, where a limit of
+/// 18 is not told from 18.1, and of a fit that is judged or printed, a seventh of a deviation.
+constexpr double kSearchedFall = 0.1;
+constexpr double kJudgedFall = 0.02;
 
 /// The equations whose fit a form and a set of causes tie together.
 std::vector<Equation> linked_equations(const Frame& frame, const std::vector<ActiveCause>& causes,
@@ -45,7 +46,7 @@ Result<void> refresh(const Frame& frame, Findings& findings, int steps);
 
 /// Every parameter of the model fitted anew with the weights that stand.
 Result<void> fit_all(const Frame& frame, Findings& findings, int steps,
-                     double smallest_fall = kSmallestFall);
+                     double smallest_fall = kSearchedFall);
 
 /// The fit with one more cause; equations that it does not touch stay as they are.
 Result<ModelFit> extended(const Frame& frame, const Findings& findings, const ActiveCause& cause,
