@@ -130,5 +130,24 @@ TEST(GapInSpring, IsToldWhereAFirmSpringAndAGapPredictAsWell) {
   EXPECT_FALSE(tells_a_gap(named, free_f, firm)) << "it predicts worse";
 }
 
+TEST(GapInSpring, MayStandBehindACause) {
+  const auto of = [](std::string_view id) {
+    Trial trial;
+    const auto row = std::ranges::find(causes(), id, &CauseRow::id);
+    trial.cause = {&*row, &row->forms.front(), {}};
+    return trial;
+  };
+  Selection other;
+  other.accepted.resize(1);
+  other.accepted.front().trial = of("viscoelastic_creep");
+  EXPECT_FALSE(has_a_gap(other));
+  other.accepted.front().rivals = {of("backlash")};
+  EXPECT_TRUE(has_a_gap(other)) << "it may take its place";
+  Selection named;
+  named.accepted.resize(1);
+  named.accepted.front().trial = of("backlash");
+  EXPECT_TRUE(has_a_gap(named));
+}
+
 }  // namespace
 }  // namespace flexspline::studies

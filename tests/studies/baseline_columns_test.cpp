@@ -1,0 +1,83 @@
+// The baseline's columns against the functions that they stand for.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/baseline.hpp"
+#include "diagnosis/cause.hpp"
+#include "diagnosis/low_pass.hpp"
+#include "diagnosis/model_columns.hpp"
+#include "drive_frame.hpp"
+#include "flexspline/core/integrated_basis.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+TEST(BaselineColumns, OfATravellingAngleHoldAHyperbolicTangentOfEachWidth) {
+  Frame frame = closed_form_frame();
+  frame.travels = true;
+  const std::vector<double> shape = {std::log(0.01 * frame.rate_range)};
+  const auto widths = travelling_widths(shape);
+  const BaselineColumns all = baseline_columns(frame, Equation::torsion, shape);
+  ASSERT_EQ(all.columns.cols(), all.elastic + static_cast<Index>(widths.size()) + 1);
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    EXPECT_NEAR(widths[k], 0.01 * frame.rate_range * std::pow(3.0, static_cast<double>(k) - 1.0),
+                1e-12 * widths[k]);
+    const ArrayXd expected = (frame.torsion_rate / widths[k]).tanh();
+    const ArrayXd column = all.columns.col(all.elastic + static_cast<Index>(k));
+    EXPECT_LT((column - expected).abs().maxCoeff(), 1e-14) << widths[k];
+  }
+}
+
+TEST(BaselineColumns, OfAGearAreOddIntegratedSplines) {
+  Frame frame = closed_form_frame(150);  // rows that fill no whole block
+  const std::vector<double> shape = {0.0, 0.0, 0.0};
+  const BaselineColumns all = baseline_columns(frame, Equation::torsion, shape);
+  std::vector<double> knots;
+  for (Index k = 1; k <= all.elastic - 3; ++k) {
+    knots.push_back(static_cast<double>(k) / static_cast<double>(all.elastic - 2));
+  }
+  const IntegratedBasis basis(knots);
+  std::vector<double> value(basis.size());
+  for (Index r = 0; r < frame.rows(); ++r) {
+    const double x = frame.torsion[r] / frame.torsion_range;
+    basis.values(std::abs(x), value);
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      EXPECT_DOUBLE_EQ(all.columns(r, static_cast<Index>(k)), std::copysign(value[k], x)) << r;
+    }
+  }
+}
+
+TEST(LowPass, FiltersColumnsTogetherAsOneByOne) {
+  const Frame frame = closed_form_frame();
+  const LowPass filter(frame, 0.03);
+  for (const Index count : {1, 5, 13}) {
+    Eigen::MatrixXd together(frame.rows(), count);
+    for (Index k = 0; k < count; ++k) {
+      together.col(k) = (frame.torque * (1.0 + 0.3 * static_cast<double>(k))).sin();
+    }
+    Eigen::MatrixXd alone = together;
+    filter.apply(together);
+    for (Index k = 0; k < count; ++k) filter.apply(alone.col(k));
+    EXPECT_EQ(together, alone) << count;
+  }
+}
+
+TEST(LowPass, IsKeptForTheTimeConstantAndTheTimesThatItIsOf) {
+  Frame frame = closed_form_frame();
+  frame.kept = no_baselines_yet();
+  const auto first = shared_low_pass(frame, 0.03);
+  EXPECT_EQ(shared_low_pass(frame, 0.03), first);
+  EXPECT_NE(shared_low_pass(frame, 0.04), first);
+  Frame slower = frame;
+  slower.time *= 2.0;
+  EXPECT_NE(shared_low_pass(slower, 0.03), first);
+  frame.kept = nullptr;
+  EXPECT_NE(shared_low_pass(frame, 0.03), first);
+}
+
+}  // namespace
+}  // namespace flexspline::studies
