@@ -51,8 +51,9 @@ Table causes_table(const DiagnosisView& view) {
       "causes",
       "Missing physics, largest first. The size is the largest contribution, with its 95 % "
       "interval, and in percent of the largest torque; the probability is that the name is right, "
-      "calibrated on simulated cases; the hold-out ratio is the misfit with it, beside all the "
-      "others, over the misfit without it, cross-validated, selection not nested.",
+      "calibrated on simulated cases and on effects added to recordings by others; the hold-out "
+      "ratio is the misfit with it, beside all the others, over the misfit without it, "
+      "cross-validated, selection not nested.",
       {{"missing", "", 3},
        {"size", "", 3},
        {"from", "", 3},

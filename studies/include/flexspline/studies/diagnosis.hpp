@@ -66,7 +66,7 @@ struct CauseEvidence {
 struct Cause {
   std::string effect;
   /// That it is right, not one of its alternatives, calibrated on simulated cases of two generators
-  /// (docs/decisions/0031).
+  /// and on effects added to recordings by others (docs/decisions/0031).
   double probability = kNotComputed;
   double size_fraction = kNotComputed;  ///< largest contribution over the largest torque
   double size = kNotComputed;           ///< the same, SI
