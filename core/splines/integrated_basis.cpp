@@ -94,8 +94,8 @@ std::vector<std::array<double, 4>> IntegratedBasis::pieces(
       const Quadratic& q = piece(i, j);
       p[0] += coefficients[i] * starts_[j * size_ + i];
       p[1] += coefficients[i] * q.q0;
-      p[2] += coefficients[i] * q.half_q1;
-      p[3] += coefficients[i] * q.third_q2;
+      p[2] += coefficients[i] * q.q1 / 2.0;
+      p[3] += coefficients[i] * q.q2 / 3.0;
     }
   }
   const auto& last = result[intervals_ - 1];
