@@ -142,6 +142,7 @@ Eigen::VectorXd ModelProblem::coefficients_of(const DriveModel& model) const {
     b.segment(own_[e].at, own_[e].size) = model.own[index_of(equations_[e])];
   }
   for (std::size_t k = 0; k < std::min(causes_.size(), model.coefficients.size()); ++k) {
+    if (causes_[k].size == 0) continue;  // it acts on other equations
     b.segment(causes_[k].at, causes_[k].size) = model.coefficients[k];
   }
   return b;
