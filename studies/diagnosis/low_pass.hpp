@@ -25,7 +25,8 @@ class LowPass {
   Eigen::ArrayXd now_, before_, kept_;  ///< a, b, k by row
 };
 
-/// The filter of a frame, kept with its columns: the same for all that have its time constant.
+/// The filter of a frame, kept with its columns: one for each time constant, s, and all frames of
+/// the same times and segments. Thread-safe.
 std::shared_ptr<const LowPass> shared_low_pass(const Frame& frame, double time_constant);
 
 }  // namespace flexspline::studies

@@ -29,8 +29,8 @@ struct Trial {
   double change = 0.0;   ///< largest change of the prediction over the same: what is seen of it
 };
 
-/// Fall of the chi square by which a step of a fit is worth another: in the search, where a limit of
-/// 18 is not told from 18.1, and of a fit that is judged or printed, a seventh of a deviation.
+/// Fall of the chi square by which a step of a fit is worth another: in the search, where a limit
+/// of 18 is not told from 18.1, and of a fit that is judged or printed, a seventh of a deviation.
 constexpr double kSearchedFall = 0.1;
 constexpr double kJudgedFall = 0.02;
 

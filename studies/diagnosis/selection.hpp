@@ -66,8 +66,9 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 bool is_taken_up(const Trial& trial, const Limits& limits);
 
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
-/// out again. Where another selection of nearly the same frame is given, it
-/// goes on from its causes, and what was redundant there is not tried again.
+/// out again. Where another selection of nearly the same frame is given, it goes on from its
+/// causes, and what was redundant there is not tried again. Neither settled nor located:
+/// settle_baseline(), locate_misfit().
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress,
                                 const Selection* from = nullptr);

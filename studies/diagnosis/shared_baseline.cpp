@@ -15,7 +15,7 @@ using Eigen::ArrayXd;
 constexpr double kSeen = 0.01;         // of a spline's height: rows that see less say nothing of it
 constexpr std::size_t kMostPlain = 4;  // some megabytes each
 constexpr std::size_t kMostWeighted = 8;  // a megabyte or two each
-constexpr std::size_t kMostFilters = 4;    // before and after a difference, and of another thread
+constexpr std::size_t kMostFilters = 4;   // before and after a difference, and of another thread
 
 /// What columns depend on, as a sum of 128 bits: two sums by different multipliers.
 class Sum {
@@ -145,6 +145,9 @@ std::shared_ptr<const LowPass> shared_low_pass(const Frame& frame, double time_c
   Sum sum;
   sum.add(time_constant);
   sum.add(frame.time);
+  for (const Segment& s : frame.segments) {
+    sum.add(static_cast<double>(s.first)), sum.add(static_cast<double>(s.count));
+  }
   return frame.kept->filters.get(sum, build);
 }
 

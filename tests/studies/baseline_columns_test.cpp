@@ -24,6 +24,7 @@ TEST(BaselineColumns, OfATravellingAngleHoldAHyperbolicTangentOfEachWidth) {
   const BaselineColumns all = baseline_columns(frame, Equation::torsion, shape);
   ASSERT_EQ(all.columns.cols(), all.elastic + static_cast<Index>(widths.size()) + 1);
   for (std::size_t k = 0; k < widths.size(); ++k) {
+    // Rounding: four products of a width, and some units of the last place of a tanh.
     EXPECT_NEAR(widths[k], 0.01 * frame.rate_range * std::pow(3.0, static_cast<double>(k) - 1.0),
                 1e-12 * widths[k]);
     const ArrayXd expected = (frame.torsion_rate / widths[k]).tanh();
@@ -72,6 +73,9 @@ TEST(LowPass, IsKeptForTheTimeConstantAndTheTimesThatItIsOf) {
   const auto first = shared_low_pass(frame, 0.03);
   EXPECT_EQ(shared_low_pass(frame, 0.03), first);
   EXPECT_NE(shared_low_pass(frame, 0.04), first);
+  Frame cut = frame;  // it starts anew where a recording does
+  cut.segments.pop_back();
+  EXPECT_NE(shared_low_pass(cut, 0.03), first);
   Frame slower = frame;
   slower.time *= 2.0;
   EXPECT_NE(shared_low_pass(slower, 0.03), first);
