@@ -83,7 +83,7 @@ Result<void> fit_placebo(const Frame& frame, const Selection& s, FoldFits& fold)
   if (s.accepted.empty() || s.accepted.front().field.empty()) return {};
   Findings instead = fold.base;
   instead.fit = s.accepted.front().field.front().fit;
-  const auto done = fit_all(frame, instead, kSteps);
+  const auto done = fit_all(frame, instead, kSteps, kJudgedFall);
   if (done) fold.placebo = std::move(instead.fit);
   return done;
 }
@@ -91,7 +91,7 @@ Result<void> fit_placebo(const Frame& frame, const Selection& s, FoldFits& fold)
 // What stands in the place of the causes: the model without each, and the placebo.
 Result<void> fit_without(const Frame& frame, const Selection& s, FoldFits& fold) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    auto fit = reduced(frame, fold.final, s.immaterial.size() + i, kSteps);
+    auto fit = reduced(frame, fold.final, s.immaterial.size() + i, kSteps, kJudgedFall);
     if (!fit) return tl::unexpected(fit.error());
     fold.without.push_back(std::move(*fit));
   }

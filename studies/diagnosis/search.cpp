@@ -215,14 +215,14 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
                   steps);
 }
 
-Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause,
-                         int steps) {
+Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause, int steps,
+                         double smallest_fall) {
   ModelFit whole = findings.fit;
   const auto equations =
       linked_equations(frame, whole.model.causes, *whole.model.causes[cause].form);
   whole.model.causes.erase(whole.model.causes.begin() + static_cast<long>(cause));
   whole.model.coefficients.erase(whole.model.coefficients.begin() + static_cast<long>(cause));
-  return fit_part(frame, findings, whole, equations, steps);
+  return fit_part(frame, findings, whole, equations, steps, smallest_fall);
 }
 
 }  // namespace flexspline::studies

@@ -53,8 +53,8 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
                           int steps);
 
 /// The fit of the same model without one of its causes.
-Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause,
-                         int steps);
+Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause, int steps,
+                         double smallest_fall = kSearchedFall);
 
 /// Every cause and part of the baseline that is not yet in the model, best net gain first; one
 /// entry each. The same for any number of threads; 0: as many as the machine has.
