@@ -123,7 +123,7 @@ def diagnose(
         threads: 0 for as many as the machine has. The result does not depend on it.
         holdout: ids of recordings that are taken away before the search and on which the result is
             judged once; none: the whole search is made again in outer folds, and judged on those.
-        quick: no outer folds: a third of the time, and a proof that is cross-validated, its
+        quick: no outer folds: less time, and a proof that is cross-validated, its
             selection not nested.
 
     Raises:

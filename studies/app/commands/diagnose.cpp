@@ -103,7 +103,7 @@ CommandRow describe_diagnose() {
                          .value = "ID",
                          .repeats = true},
                         {.name = "--quick",
-                         .meaning = "no search in outer folds: a third of the time, and a proof "
+                         .meaning = "no search in outer folds: less time, and a proof "
                                     "that is cross-validated, its selection not nested",
                          .value = ""},
                         interest_argument(),
