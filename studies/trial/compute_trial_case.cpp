@@ -39,8 +39,6 @@ Result<ConcealedCase> conceal_case(ConcealPlan& plan) {
 
 /// Not known where the baseline cannot be fitted.
 std::vector<EffectTrace> known_traces(const ConcealPlan& plan, const RecordingSet& recordings) {
-  // Only the bench can be run again without the effect, and with the same noise.
-  if (plan.generator != "bench") return {};
   auto traces = traces_of(plan, recordings);
   if (traces) return *std::move(traces);
   std::vector<EffectTrace> unknown;

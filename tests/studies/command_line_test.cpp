@@ -180,6 +180,17 @@ TEST_F(CommandLine, ConcealRefusesABadBenchAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(CommandLine, TrialKeepsRecordingsBesideItsFolderOnly) {
+  folder_.write("trial.toml",
+                "schema = \"flexspline-trial/1\"\nname = \"one\"\nseed = 1\nrigs = "
+                "[\"locked\"]\ncases = 1\n[draw]\nnone = 1.0\n");
+  const Finished done = call("trial " + path("trial.toml") + " --out " + path("out") +
+                             " --recordings " + path("out/kept"));
+  EXPECT_EQ(done.code, 2);
+  EXPECT_THAT(done.output, HasSubstr("lies in --out"));
+  EXPECT_FALSE(std::filesystem::exists(path("out"))) << "a refusal leaves nothing";
+}
+
 TEST_F(CommandLine, SimulateRefusesAnAmplitudeInTheWrongUnit) {
   folder_.write("model.toml",
                 read_text(std::string(FLEXSPLINE_SOURCE_DIR) + "/tests/studies/cubic_model.toml"));

@@ -85,10 +85,23 @@ ExitCode show(const studies::TrialSummary& summary, const studies::RunSummary& r
   return summary.run.failed.empty() && summary.not_concealed.empty() ? kDone : kSomethingFailed;
 }
 
+/// What lies in the trial's folder is the trial's alone.
+Result<void> keep_apart(const std::filesystem::path& recordings, const std::filesystem::path& out) {
+  std::error_code error;
+  const auto inside = std::filesystem::weakly_canonical(recordings, error)
+                          .lexically_relative(std::filesystem::weakly_canonical(out, error));
+  if (inside.empty() || *inside.begin() == "..") return {};
+  return failure(ErrorCode::usage,
+                 fmt::format("--recordings {} lies in --out {}", recordings.string(), out.string()),
+                 "choose a folder of its own beside it");
+}
+
 /// Claims the folder of the recordings, where they are to be kept.
 Result<std::optional<OutputFolder>> keep_recordings(const studies::TrialConfig& trial,
                                                     const Arguments& arguments) {
   if (!arguments.has("recordings")) return std::nullopt;
+  const auto apart = keep_apart(arguments.text("recordings"), arguments.text("out"));
+  if (!apart) return tl::unexpected(apart.error());
   const auto text = read_file(trial.file);
   if (!text) return tl::unexpected(text.error());
   return OutputFolder::claim({"trial --recordings",

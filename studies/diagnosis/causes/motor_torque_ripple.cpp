@@ -10,7 +10,8 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
-constexpr double kLeastSeen = 0.25;  // of all rows: docs/decisions/0032
+constexpr double kLeastSeen = 0.25;                            // of all rows: docs/decisions/0032
+constexpr double kSlowestCorner = 0.03, kFastestCorner = 3.0;  // of the largest speed
 
 std::vector<Shape> turns_up_to(double highest) {
   return {{.name = "order",
@@ -92,6 +93,26 @@ bool follows(const Frame& f) {
   if (!geared(f)) return false;
   const double highest = turns_that_show(f).front().upper;
   return shows_periods(f, highest) && kept(f, highest).minCoeff() < 0.9;
+}
+
+std::vector<Shape> turns_and_corner(const Frame& f) {
+  auto shapes = turns(f);
+  shapes.push_back({.name = "corner_speed",
+                    .unit = "rad/s",
+                    .lower = kSlowestCorner * f.speed_range,
+                    .upper = kFastestCorner * f.speed_range,
+                    .meaning = "of the motor, above which its control loop does not keep up"});
+  return shapes;
+}
+
+// A loop that holds a motor to its reference answers what disturbs it, Re[c e^(i k theta)], by
+// Re[T c e^(i k theta)]: all of it at rest, and as a filter of first order what comes faster,
+// T = 1/(1 + i theta'/w).
+Columns ripple_answered(Equation, const Frame& f, const Reference&, Values shape) {
+  const ArrayXd speed = f.motor_speed / shape[1];
+  const ArrayXd share = 1.0 / (1.0 + speed.square());
+  const Columns wave = sine_pair(f.motor_angle, shape[0], share);
+  return {wave[0] - speed * wave[1], wave[1] + speed * wave[0]};
 }
 
 // A channel that ripples was zeroed at some angle of the motor: there it shows nothing.
@@ -186,7 +207,16 @@ CauseRow describe_motor_torque_ripple() {
                      .terms = ripple_terms,
                      .columns = ripple_under_current_followed,
                      .where = follows,
-                     .counterpart = under_current}}};
+                     .counterpart = under_current},
+                    {.equation = "tau_f += a sin k theta_m + b cos k theta_m, of which the loop "
+                                 "answers 1/(1 + i theta_m'/w)",
+                     .rigs = {Rig::servo},
+                     .at = {Equation::motor},
+                     .shapes = turns_and_corner,
+                     .terms = cogging_terms,
+                     .columns = ripple_answered,
+                     .where = geared,
+                     .counterpart = cogging}}};
 }
 
 }  // namespace flexspline::studies
