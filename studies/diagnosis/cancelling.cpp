@@ -10,19 +10,18 @@ namespace {
 
 using Eigen::ArrayXd;
 
-constexpr double kLeft = 0.2;
-
 double rms(const Frame& frame, const ArrayXd& x) {
   return std::sqrt((frame.usable * x.square()).sum() / std::max(frame.usable.sum(), 1.0));
 }
 
 void add_pairs(const Frame& frame, const std::vector<ArrayXd>& parts, Equation equation,
-               std::vector<Cancelling>& pairs) {
+               const Limits& limits, std::vector<Cancelling>& pairs) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       const double smaller = std::min(rms(frame, parts[i]), rms(frame, parts[k]));
       const double sum = rms(frame, parts[i] + parts[k]);
-      if (smaller > 0.0 && sum < kLeft * smaller) pairs.push_back({i, k, equation, sum / smaller});
+      if (smaller > 0.0 && sum < limits.half * smaller)
+        pairs.push_back({i, k, equation, sum / smaller});
     }
   }
 }
@@ -30,7 +29,7 @@ void add_pairs(const Frame& frame, const std::vector<ArrayXd>& parts, Equation e
 }  // namespace
 
 std::vector<Cancelling> cancelling(const Frame& frame, const DriveModel& model,
-                                   const Reference& reference) {
+                                   const Reference& reference, const Limits& limits) {
   std::vector<Cancelling> pairs;
   if (model.causes.size() < 2) return pairs;
   for (Equation equation : frame.equations) {
@@ -38,7 +37,7 @@ std::vector<Cancelling> cancelling(const Frame& frame, const DriveModel& model,
     for (std::size_t i = 0; i < model.causes.size(); ++i) {
       parts.push_back(contribution(frame, model, reference, i, equation));
     }
-    add_pairs(frame, parts, equation, pairs);
+    add_pairs(frame, parts, equation, limits, pairs);
   }
   return pairs;
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/model.hpp"
+#include "diagnosis/selection.hpp"
 
 namespace flexspline::studies {
 
@@ -17,10 +17,11 @@ struct Cancelling {
   bool has(std::size_t cause) const { return cause == first || cause == second; }
 };
 
-/// Pairs whose sum is less than a fifth of the smaller one, over the usable rows: the recordings
-/// tell their sum and neither of the two.
+/// Pairs whose sum is less than half of the smaller one (limits.half, rms over the usable rows):
+/// the larger part of either is taken back by the other, and the recordings tell their sum and
+/// neither of the two.
 std::vector<Cancelling> cancelling(const Frame& frame, const DriveModel& model,
-                                   const Reference& reference);
+                                   const Reference& reference, const Limits& limits);
 
 std::string in_words(const DriveModel& model, const Cancelling& pair);
 

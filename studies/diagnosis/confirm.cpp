@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "diagnosis/cancelling.hpp"
 #include "diagnosis/unnamed.hpp"
 
 namespace flexspline::studies {
@@ -68,6 +69,38 @@ std::optional<std::size_t> improbable(const Proof& proof, const Limits& limits) 
   return least - proof.causes.begin();
 }
 
+bool acts_elsewhere(const Frame& frame, const CauseForm& form, Equation equation) {
+  return std::ranges::any_of(form.at, [&](Equation at) { return at != equation && frame.has(at); });
+}
+
+// Of two that take most of each other back, and act nowhere else, the one that is worth less.
+std::optional<std::size_t> taken_back(const Frame& frame, const Limits& limits,
+                                      const Selection& s) {
+  const DriveModel& model = s.final.fit.model;
+  const std::size_t immaterial = model.causes.size() - s.accepted.size();
+  for (const Cancelling& pair : cancelling(frame, model, s.final.reference, limits)) {
+    if (pair.second < immaterial) continue;
+    if (acts_elsewhere(frame, *model.causes[pair.first].form, pair.equation) ||
+        acts_elsewhere(frame, *model.causes[pair.second].form, pair.equation)) {
+      continue;
+    }
+    const std::size_t second = pair.second - immaterial;
+    if (pair.first < immaterial) return second;
+    const std::size_t first = pair.first - immaterial;
+    return s.accepted[first].trial.gain < s.accepted[second].trial.gain ? first : second;
+  }
+  return std::nullopt;
+}
+
+Result<void> leave_out_taken_back(const Frame& frame, const Limits& limits, Selection& s) {
+  while (const auto cause = taken_back(frame, limits, s)) {
+    const auto left_out =
+        leave_out(frame, s, *cause, "another takes most of it back: only their sum is told");
+    if (!left_out) return left_out;
+  }
+  return {};
+}
+
 /// The proof of a selection, and the cause that it takes to go.
 struct Checked {
   Proof proof;
@@ -126,6 +159,8 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
   while (true) {
+    const auto told = leave_out_taken_back(frame, limits, s);
+    if (!told) return tl::unexpected(told.error());
     auto check = checked(frame, limits, s);
     if (!check) return tl::unexpected(check.error());
     auto& [proof, doubtful] = *check;

@@ -61,7 +61,7 @@ class Specifier {
   }
 
   Specification specify() {
-    const auto refused = cancelling(frame_, model_, reference_);
+    const auto refused = cancelling(frame_, model_, reference_, {});
     for (const Cancelling& pair : refused) say("model.toml lacks {}", in_words(model_, pair));
     std::vector<std::size_t> taken;
     for (std::size_t i = 0; i < model_.causes.size(); ++i) {

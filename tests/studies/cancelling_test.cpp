@@ -1,0 +1,79 @@
+// Two corrections of a free rig's motor equation that take each other back: all of its torque turns
+// inertias, so that an error of one of them is nearly a share of the motor's torque.
+#include "diagnosis/cancelling.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include <gmock/gmock.h>
+
+#include "drive_frame.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+
+ActiveCause cause_named(std::string_view id, const Frame& frame) {
+  for (const CauseRow& row : causes()) {
+    if (row.id != id) continue;
+    for (const CauseForm* form : forms_on(row, frame)) {
+      if (first_equation(frame, *form) == Equation::motor) return {&row, form, {}};
+    }
+  }
+  throw std::logic_error("no such cause in the motor equation");
+}
+
+class CancellingPair : public testing::Test {
+ protected:
+  /// The pair with these coefficients beside the baseline.
+  std::vector<Cancelling> found(double inertia, double share) {
+    DriveModel model = baseline_.fit.model;
+    model.causes = {inertia_, share_};
+    model.coefficients = {Eigen::VectorXd::Constant(1, inertia),
+                          Eigen::VectorXd::Constant(1, share)};
+    return cancelling(frame_, model, baseline_.reference, {});
+  }
+  ArrayXd column(const ActiveCause& cause) const {
+    return frame_.usable *
+           cause.form->columns(Equation::motor, frame_, baseline_.reference, cause.shape).front();
+  }
+
+  const Frame frame_ = drawn_frame(Rig::free);
+  const Findings baseline_ = *fit_baseline(frame_);
+  const ActiveCause inertia_ = cause_named("inertia_torque", frame_);
+  const ActiveCause share_ = cause_named("torque_constant_error", frame_);
+};
+
+TEST_F(CancellingPair, IsWhoseSumIsLessThanHalfOfTheSmaller) {
+  const ArrayXd x = column(inertia_), y = column(share_);
+  const double opposite = -(x * y).sum() / y.square().sum();  // what takes x back best
+  const double left = std::sqrt((x + opposite * y).square().sum() /
+                                std::min(x.square().sum(), (opposite * y).square().sum()));
+  ASSERT_LT(left, 0.5) << "the rig has to be one on which they are alike";
+  const auto pairs = found(1.0, opposite);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(pairs[0].equation, Equation::motor);
+  EXPECT_TRUE(pairs[0].has(0) && pairs[0].has(1));
+  EXPECT_NEAR(pairs[0].left, left, 1e-6);
+}
+
+TEST_F(CancellingPair, IsNoneWhereTheyAddOrOneIsMuchLarger) {
+  const ArrayXd x = column(inertia_), y = column(share_);
+  const double opposite = -(x * y).sum() / y.square().sum();
+  EXPECT_TRUE(found(1.0, -opposite).empty());
+  EXPECT_TRUE(found(1.0, 0.4 * opposite).empty()) << "more than all of the smaller one is left";
+}
+
+TEST_F(CancellingPair, IsToldInWords) {
+  DriveModel model;
+  model.causes = {inertia_, share_};
+  const std::string says = in_words(model, {0, 1, Equation::motor, 0.25});
+  for (const char* part : {"inertia_torque", "torque_constant_error", "motor equation", "25 %"}) {
+    EXPECT_THAT(says, testing::HasSubstr(part));
+  }
+}
+
+}  // namespace
+}  // namespace flexspline::studies
