@@ -48,6 +48,7 @@ TEST(ProbabilityRight, GoesByTheShareOfTheMisfitThatIsLeft) {
   };
   EXPECT_NEAR(of(8.0, 2.0), of(2.0, 0.5), 1e-12);
   EXPECT_GT(of(8.0, 0.5), of(8.0, 2.0));
+  EXPECT_LT(of(8.0, 8.0), 0.5) << "a name that leaves all is more likely wrong than right";
 }
 
 TEST(ProbabilityRight, SaysNoMoreThanWasCalibrated) {
