@@ -7,20 +7,18 @@ namespace {
 
 constexpr double kLeastShare = 0.002;
 constexpr double kLeast = 1e-3;        // of what is left over; cases are too few to tell less
-constexpr double kLeastExcess = 0.05;  // of the noise's mean square: as the noise is known
 constexpr double kMostLeftOver = 0.3;  // more tells no more
-constexpr double kNone = 9.0, kOfShare = 0.8, kOfRest = -6.9, kOfLeftOver = -1.14,
-                 kOfAlternatives = -2.9;
+constexpr double kNone = 5.5, kOfShare = 0.6, kOfRest = -9.5, kOfLeftOver = -0.6,
+                 kOfAlternatives = -1.4;
 
 // NaN stays.
 double within(double x, double lower, double upper) {
   return x < lower ? lower : x > upper ? upper : x;
 }
 
-// Of the baseline's mean square beyond noise what the whole model leaves.
+// Of the baseline's mean square what the whole model leaves beyond noise.
 double rest(double over_noise, double before_over_noise) {
-  const double excess = before_over_noise * before_over_noise - 1.0;
-  return (over_noise * over_noise - 1.0) / (excess < kLeastExcess ? kLeastExcess : excess);
+  return (over_noise * over_noise - 1.0) / (before_over_noise * before_over_noise);
 }
 
 }  // namespace
