@@ -14,30 +14,40 @@ double rms(const Frame& frame, const ArrayXd& x) {
   return std::sqrt((frame.usable * x.square()).sum() / std::max(frame.usable.sum(), 1.0));
 }
 
-void add_pairs(const Frame& frame, const std::vector<ArrayXd>& parts, Equation equation,
-               const Limits& limits, std::vector<Cancelling>& pairs) {
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (std::size_t k = i + 1; k < parts.size(); ++k) {
-      const double smaller = std::min(rms(frame, parts[i]), rms(frame, parts[k]));
-      const double sum = rms(frame, parts[i] + parts[k]);
-      if (smaller > 0.0 && sum < limits.half * smaller)
-        pairs.push_back({i, k, equation, sum / smaller});
-    }
+/// What a cause adds to an equation.
+struct Part {
+  std::size_t cause = 0;
+  ArrayXd torque;
+};
+
+// Of the causes that act on an equation; none where they are fewer than two.
+std::vector<Part> parts_of(const Frame& frame, const DriveModel& model, const Reference& reference,
+                           Equation equation) {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < model.causes.size(); ++i) {
+    if (std::ranges::count(model.causes[i].form->at, equation) > 0) parts.push_back({i, {}});
   }
+  if (parts.size() < 2) return {};
+  for (Part& part : parts) {
+    part.torque = contribution(frame, model, reference, part.cause, equation);
+  }
+  return parts;
 }
 
 }  // namespace
 
 std::vector<Cancelling> cancelling(const Frame& frame, const DriveModel& model,
-                                   const Reference& reference, const Limits& limits) {
+                                   const Reference& reference, double most_left) {
   std::vector<Cancelling> pairs;
-  if (model.causes.size() < 2) return pairs;
   for (Equation equation : frame.equations) {
-    std::vector<ArrayXd> parts;
-    for (std::size_t i = 0; i < model.causes.size(); ++i) {
-      parts.push_back(contribution(frame, model, reference, i, equation));
+    const auto parts = parts_of(frame, model, reference, equation);
+    for (auto one = parts.begin(); one != parts.end(); ++one) {
+      for (auto other = one + 1; other != parts.end(); ++other) {
+        const double smaller = std::min(rms(frame, one->torque), rms(frame, other->torque));
+        const double left = rms(frame, one->torque + other->torque) / smaller;
+        if (left < most_left) pairs.push_back({one->cause, other->cause, equation, left});
+      }
     }
-    add_pairs(frame, parts, equation, limits, pairs);
   }
   return pairs;
 }

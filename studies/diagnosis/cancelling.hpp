@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/selection.hpp"
+#include "diagnosis/model.hpp"
 
 namespace flexspline::studies {
 
@@ -17,11 +17,11 @@ struct Cancelling {
   bool has(std::size_t cause) const { return cause == first || cause == second; }
 };
 
-/// Pairs whose sum is less than half of the smaller one (limits.half, rms over the usable rows):
-/// the larger part of either is taken back by the other, and the recordings tell their sum and
-/// neither of the two.
+/// Pairs of causes whose sum in an equation is less than a share of the smaller one: rms over the
+/// usable rows of x_i + x_k over the lesser of those of x_i and x_k, 0 to 2. Of these the recordings
+/// tell the sum and neither of the two, as far as no other equation does (docs/decisions/0035).
 std::vector<Cancelling> cancelling(const Frame& frame, const DriveModel& model,
-                                   const Reference& reference, const Limits& limits);
+                                   const Reference& reference, double most_left);
 
 std::string in_words(const DriveModel& model, const Cancelling& pair);
 

@@ -78,7 +78,7 @@ std::optional<std::size_t> taken_back(const Frame& frame, const Limits& limits,
                                       const Selection& s) {
   const DriveModel& model = s.final.fit.model;
   const std::size_t immaterial = model.causes.size() - s.accepted.size();
-  for (const Cancelling& pair : cancelling(frame, model, s.final.reference, limits)) {
+  for (const Cancelling& pair : cancelling(frame, model, s.final.reference, limits.half)) {
     if (pair.second < immaterial) continue;
     if (acts_elsewhere(frame, *model.causes[pair.first].form, pair.equation) ||
         acts_elsewhere(frame, *model.causes[pair.second].form, pair.equation)) {

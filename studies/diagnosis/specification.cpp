@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr double kLeft = 0.2;          // of the smaller of two parts, as in a fit
 constexpr double kWorthSaying = 2e-3;  // error of a law over its largest value
 
 /// The frame as the causes leave it, in which the baseline's laws were fitted.
@@ -61,7 +62,7 @@ class Specifier {
   }
 
   Specification specify() {
-    const auto refused = cancelling(frame_, model_, reference_, {});
+    const auto refused = cancelling(frame_, model_, reference_, kLeft);
     for (const Cancelling& pair : refused) say("model.toml lacks {}", in_words(model_, pair));
     std::vector<std::size_t> taken;
     for (std::size_t i = 0; i < model_.causes.size(); ++i) {

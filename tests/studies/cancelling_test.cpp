@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "diagnosis/confirm.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {
@@ -33,7 +34,7 @@ class CancellingPair : public testing::Test {
     model.causes = {inertia_, share_};
     model.coefficients = {Eigen::VectorXd::Constant(1, inertia),
                           Eigen::VectorXd::Constant(1, share)};
-    return cancelling(frame_, model, baseline_.reference, {});
+    return cancelling(frame_, model, baseline_.reference, 0.5);
   }
   ArrayXd column(const ActiveCause& cause) const {
     return frame_.usable *
@@ -64,6 +65,31 @@ TEST_F(CancellingPair, IsNoneWhereTheyAddOrOneIsMuchLarger) {
   const double opposite = -(x * y).sum() / y.square().sum();
   EXPECT_TRUE(found(1.0, -opposite).empty());
   EXPECT_TRUE(found(1.0, 0.4 * opposite).empty()) << "more than all of the smaller one is left";
+}
+
+Accepted accepted_with(const ActiveCause& cause, double gain) {
+  Accepted accepted;
+  accepted.trial.cause = cause;
+  accepted.trial.gain = accepted.first_gain = gain;
+  return accepted;
+}
+
+// Whatever recordings held out say of it: it goes before they are asked.
+TEST_F(CancellingPair, LosesTheNameThatIsWorthLess) {
+  const ArrayXd x = column(inertia_), y = column(share_);
+  Selection s;
+  s.baseline = s.final = baseline_;
+  DriveModel& model = s.final.fit.model;
+  model.causes = {inertia_, share_};
+  model.coefficients = {Eigen::VectorXd::Constant(1, 1.0),
+                        Eigen::VectorXd::Constant(1, -(x * y).sum() / y.square().sum())};
+  s.accepted = {accepted_with(inertia_, 500.0), accepted_with(share_, 400.0)};
+  const auto proof = confirm(frame_, {}, s);
+  ASSERT_TRUE(proof) << proof.error().message();
+  ASSERT_FALSE(s.withdrawn.empty());
+  const Accepted& first_to_go = s.withdrawn.back();
+  EXPECT_EQ(first_to_go.trial.cause.row, share_.row);
+  EXPECT_THAT(std::string(first_to_go.withdrawn_because), testing::HasSubstr("takes most of it"));
 }
 
 TEST_F(CancellingPair, IsToldInWords) {
