@@ -15,14 +15,14 @@ struct NameEvidence {
 };
 
 /// Probability that a name is right:
-///     ln p/(1 - p) = b0 + b1 ln(1 - r^2) + b2 ln(1000 q) + b3 ln(1000 l) + b4 k,
-/// r the ratio (1 - r^2 at least 0.002: a cause that explains nothing), q = (m^2 - 1)/(m0^2 - 1)
-/// what the model leaves of the baseline's mean square beyond noise, m and m0 their errors over the
-/// noise, from 0.001 to 1, l what is left over beside the cause, from 0.001 to 0.3, k the
-/// alternatives. The b are a logistic regression on names that were given on simulated cases of two
-/// generators and on effects added to recordings by others, right and wrong ones
-/// (docs/decisions/0031): a frequency among such cases, of which one in four hides something
-/// outside the catalogue or in a single recording. NaN where a number is.
+///     ln p/(1 - p) = b0 + b1 ln(1 - r^2) + b2 q + b3 ln(1000 l) + b4 k,
+/// r the ratio (1 - r^2 at least 0.002: a cause that explains nothing), q = (m^2 - 1)/m0^2 what the
+/// model leaves beyond noise of the baseline's mean square, m and m0 their errors over the noise,
+/// from 0 to 1, l what is left over beside the cause, from 0.001 to 0.3, k the alternatives. The b
+/// are a logistic regression on names that were given on simulated cases of two generators and on
+/// effects added to recordings by others, right and wrong ones (docs/decisions/0036): a frequency
+/// among such cases, of which one in four hides something outside the catalogue or in a single
+/// recording. NaN where a number is.
 double probability_right(const NameEvidence& evidence);
 
 }  // namespace flexspline::studies

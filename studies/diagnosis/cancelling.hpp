@@ -18,8 +18,9 @@ struct Cancelling {
 };
 
 /// Pairs of causes whose sum in an equation is less than a share of the smaller one: rms over the
-/// usable rows of x_i + x_k over the lesser of those of x_i and x_k, 0 to 2. Of these the recordings
-/// tell the sum and neither of the two, as far as no other equation does (docs/decisions/0035).
+/// usable rows of x_i + x_k over the lesser of those of x_i and x_k, 0 to 2. Of these the
+/// recordings tell the sum and neither of the two, as far as no other equation does
+/// (docs/decisions/0035).
 std::vector<Cancelling> cancelling(const Frame& frame, const DriveModel& model,
                                    const Reference& reference, double most_left);
 

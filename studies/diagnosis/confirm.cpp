@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "diagnosis/cancelling.hpp"
 #include "diagnosis/unnamed.hpp"
+#include "diagnosis/unnamed_causes.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -44,22 +44,8 @@ double probability_of(const CauseProof& cause) {
   return std::isnan(probability) ? 0.0 : probability;
 }
 
-// That which could not be judged is none.
-double held_out_gain(const CauseProof& cause) {
-  return std::isnan(cause.gain) ? -std::numeric_limits<double>::infinity() : cause.gain;
-}
-
-bool is_proved(const CauseProof& cause, const Limits& limits) { return cause.gain >= limits.gain; }
-
 bool stands(const CauseProof& cause, const Limits& limits) {
-  return is_proved(cause, limits) && probability_of(cause) >= limits.probability;
-}
-
-// Of the causes that the held-out recordings do not confirm the one that helps least there.
-std::optional<std::size_t> unproved(const Proof& proof, const Limits& limits) {
-  const auto least = std::ranges::min_element(proof.causes, {}, held_out_gain);
-  if (least == proof.causes.end() || is_proved(*least, limits)) return std::nullopt;
-  return least - proof.causes.begin();
+  return is_confirmed(cause, limits) && probability_of(cause) >= limits.probability;
 }
 
 // Of those that are more likely wrong than right the least probable.
@@ -110,7 +96,7 @@ struct Checked {
 Result<Checked> checked(const Frame& frame, const Limits& limits, const Selection& s) {
   auto proof = prove(frame, s, limits.threads);
   if (!proof) return tl::unexpected(proof.error());
-  if (const auto cause = unproved(*proof, limits)) return Checked{std::move(*proof), cause};
+  if (const auto cause = unconfirmed(*proof, limits)) return Checked{std::move(*proof), cause};
   complete(frame, s, *proof);
   const auto cause = improbable(*proof, limits);
   return Checked{std::move(*proof), cause};
@@ -133,14 +119,14 @@ Result<std::optional<Selection>> with_rival_that_stands(const Frame& frame, cons
   }
   auto proof = prove(frame, *other, limits.threads);
   if (!proof) return tl::unexpected(proof.error());
-  if (!is_proved(proof->causes.back(), limits)) return std::nullopt;
+  if (!is_confirmed(proof->causes.back(), limits)) return std::nullopt;
   complete(frame, *other, *proof);
   if (!stands(proof->causes.back(), limits)) return std::nullopt;
   return std::move(*other);
 }
 
 std::string_view why_not(const CauseProof& cause, const Limits& limits) {
-  if (is_proved(cause, limits)) return "it is more likely wrong than right";
+  if (is_confirmed(cause, limits)) return "it is more likely wrong than right";
   return cause.gain > 0.0 ? "it hardly lowers the error on recordings held out"
                           : "it does not lower the error on recordings held out";
 }
@@ -158,6 +144,7 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
 }
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
+  std::vector<Accepted> improbable;
   while (true) {
     const auto told = leave_out_taken_back(frame, limits, s);
     if (!told) return tl::unexpected(told.error());
@@ -168,7 +155,7 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
       const auto fitted = fit_all(frame, s.final, kFinalSteps, kJudgedFall);
       if (!fitted) return tl::unexpected(fitted.error());
       locate_misfit(frame, limits, s);
-      return std::move(proof);
+      return with_unnamed(frame, limits, std::move(improbable), std::move(proof), s);
     }
     auto exchanged = with_rival_that_stands(frame, limits, s, *doubtful);
     if (!exchanged) return tl::unexpected(exchanged.error());
@@ -177,10 +164,14 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
       continue;
     }
     const CauseProof& cause = proof.causes[*doubtful];
-    s.unproved =
-        s.unproved || (!is_proved(cause, limits) && leaves_a_question(frame, limits, s, *doubtful));
+    s.unproved = s.unproved ||
+                 (!is_confirmed(cause, limits) && leaves_a_question(frame, limits, s, *doubtful));
     const auto left_out = leave_out(frame, s, *doubtful, why_not(cause, limits));
     if (!left_out) return tl::unexpected(left_out.error());
+    if (!is_confirmed(cause, limits)) continue;
+    improbable.push_back(std::move(s.withdrawn.front()));
+    improbable.back().probability = probability_of(cause);
+    s.withdrawn.erase(s.withdrawn.begin());
   }
 }
 

@@ -1,8 +1,5 @@
 #include "diagnosis/decision.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "diagnosis/experiment.hpp"
@@ -57,18 +54,11 @@ void prove_in_folds(const Frame& whole, const std::vector<Result<SearchedFold>>&
   d.nested = std::move(*nested);
 }
 
-// More than noise is left where the model's own error is larger than the noise, and no trifle.
-bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& limits) {
-  const double own =
-      std::sqrt(std::max(h.rmse_after * h.rmse_after - h.noise_floor * h.noise_floor, 0.0));
-  return h.over_noise() * h.over_noise() > limits.as_noise() &&
-         own > limits.trifle() * frame.torque_range;
-}
-
 bool is_something_left(const Decision& d, const Limits& limits) {
   const auto& [frame, selection, proof] = d.finding;
-  return selection.remainder || !frame.incidents.empty() ||
-         left_unnamed(selection, limits) != nullptr || is_beyond_noise(frame, d.proof, limits) ||
+  return selection.remainder || d.resonance || !selection.unnamed.empty() ||
+         !frame.incidents.empty() || left_unnamed(selection, limits) != nullptr ||
+         is_beyond_noise(frame, d.proof, limits) ||
          (d.cross_validated && is_beyond_noise(frame, *d.cross_validated, limits));
 }
 
@@ -94,6 +84,7 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   d.finding = std::move(*searches.finding);
   d.proof = d.finding.proof.holdout;
   d.ripple = find_ripple(d.finding.frame, d.finding.selection, d.proof, limits);
+  d.resonance = find_resonance(d.finding.frame, d.finding.selection.final, d.finding.proof, limits);
 
   // Proof.
   prove_in_folds(*frame, searches.folds, d);

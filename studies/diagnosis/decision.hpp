@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/nested_proof.hpp"
+#include "diagnosis/resonance.hpp"
 #include "diagnosis/ripple_finding.hpp"
 #include "diagnosis/undecided.hpp"
 #include "diagnosis/unnamed.hpp"
@@ -14,6 +15,7 @@ namespace flexspline::studies {
 struct Decision {
   Finding finding;                      ///< of all recordings that were searched
   std::optional<RippleFinding> ripple;  ///< in the fast changes, which the search counts as noise
+  std::optional<Resonance> resonance;   ///< that the model lacks
   HoldoutProof proof;                   ///< of recordings that the search had not
   std::optional<HoldoutProof> cross_validated;  ///< of the recordings searched, where proof is not
   std::optional<NestedProof> nested;            ///< by outer fold

@@ -31,7 +31,7 @@ double noise_of(const Frame& frame, const Selection& selection) {
          (shown == Equation::motor ? frame.ratio : 1.0);
 }
 
-/// What a model file says of causes that are in the model, but too small to be named.
+/// What a model file says of causes that are in the model without being named.
 std::vector<std::string> remarks_on(const Selection& s) {
   std::vector<std::string> remarks;
   for (const Accepted& small : s.immaterial) {
@@ -39,6 +39,11 @@ std::vector<std::string> remarks_on(const Selection& s) {
         small.trial.cause.row->of_baseline()
             ? ""
             : fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
+  }
+  remarks.resize(remarks.size() + s.accepted.size());
+  for (const Accepted& one : s.unnamed) {
+    remarks.push_back(
+        fmt::format("its form, not its name: that has a probability of {:.2g}", one.probability));
   }
   return remarks;
 }
@@ -82,7 +87,7 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   for (Cause& cause : d.causes) {
     if (decision.nested) cause.stability = stability_of(*decision.nested, cause);
   }
-  d.mismatch = spelled_mismatch(frame, selection, limits);
+  d.mismatch = spelled_mismatch(frame, selection, limits, decision.resonance);
   d.confusable = spelled_confusable(frame, selection);
   d.tried = spelled_trials(selection, limits);
   d.unnamed = decision.unnamed;
@@ -91,7 +96,7 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.moved = spelled_moves(frame, selection);
   d.experiments = next_experiments(frame, selection);
   if (!d.experiments.empty()) d.next_experiment = d.experiments.front();
-  d.says = spelled_verdict(selection, limits, d);
+  d.says = spelled_verdict(selection, limits, decision.resonance, d);
   if (decision.undecided) make_undecided(*decision.undecided, d);
   return d;
 }

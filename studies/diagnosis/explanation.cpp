@@ -1,6 +1,7 @@
 #include "diagnosis/explanation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flexspline::studies {
 bool is_left(const CoordinateScore& score, const Limits& limits) {
@@ -16,6 +17,13 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
     if (seen && (most == nullptr || a.trial.removed > most->trial.removed)) most = &a;
   }
   return most;
+}
+
+bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& limits) {
+  const double own =
+      std::sqrt(std::max(h.rmse_after * h.rmse_after - h.noise_floor * h.noise_floor, 0.0));
+  return h.over_noise() * h.over_noise() > limits.as_noise() &&
+         own > limits.trifle() * frame.torque_range;
 }
 
 double worst_misfit(const Frame& frame, const Findings& findings) {

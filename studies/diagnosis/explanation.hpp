@@ -12,6 +12,10 @@ bool is_left(const CoordinateScore& score, const Limits& limits);
 /// where there is none, and beside named causes, whose forms may be what it mends.
 const Accepted* left_unnamed(const Selection& s, const Limits& limits);
 
+/// True where more than noise is left: the model's own error is larger than the noise, and no
+/// trifle.
+bool is_beyond_noise(const Frame& frame, const HoldoutProof& proof, const Limits& limits);
+
 /// Largest mean square over noise of an equation.
 double worst_misfit(const Frame& frame, const Findings& findings);
 

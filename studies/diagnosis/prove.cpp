@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "diagnosis/folds.hpp"
@@ -172,20 +173,38 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
   }
 }
 
+// That which could not be judged is none.
+double held_out_gain(const CauseProof& cause) {
+  return std::isnan(cause.gain) ? -std::numeric_limits<double>::infinity() : cause.gain;
+}
+
 }  // namespace
 
 Equation equation_to_prove(const Frame& frame, const Selection& selection) {
-  Equation first = frame.equations.front();
-  for (const Accepted& a : selection.accepted) {
-    for (Equation at : a.trial.cause.form->at) {
-      if (at == Equation::torsion && frame.has(at)) return at;
+  std::optional<Equation> first;
+  for (const auto* causes : {&selection.accepted, &selection.unnamed}) {
+    for (const Accepted& a : *causes) {
+      for (Equation at : a.trial.cause.form->at) {
+        if (!frame.has(at)) continue;
+        if (at == Equation::torsion) return at;
+        if (!first) first = at;
+      }
     }
   }
-  if (selection.accepted.empty()) return first;
-  for (Equation at : selection.accepted.front().trial.cause.form->at) {
-    if (frame.has(at)) return at;
-  }
-  return first;
+  return first.value_or(frame.equations.front());
+}
+
+bool is_confirmed(const CauseProof& cause, const Limits& limits) {
+  return cause.gain >= limits.gain;
+}
+
+std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits,
+                                       std::size_t first) {
+  const auto least =
+      std::ranges::min_element(proof.causes.begin() + static_cast<std::ptrdiff_t>(first),
+                               proof.causes.end(), {}, held_out_gain);
+  if (least == proof.causes.end() || is_confirmed(*least, limits)) return std::nullopt;
+  return least - proof.causes.begin();
 }
 
 Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/calibrated.hpp"
 #include "diagnosis/selection.hpp"
 #include "flexspline/studies/diagnosis.hpp"
@@ -31,6 +33,15 @@ struct Proof {
   Eigen::ArrayXd after;
   std::vector<ModelFit> by_fold;  ///< the final model, by fold of folds_of, fitted without its rows
 };
+
+/// True where recordings held out say that a cause is there.
+bool is_confirmed(const CauseProof& cause, const Limits& limits);
+
+/// Of the causes from a first one on that are not confirmed the one that helps least; none where
+/// all are.
+std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits,
+                                       std::size_t first = 0);
+
 /// The same for any number of threads; 0: as many as the machine has.
 Result<Proof> prove(const Frame& frame, const Selection& selection, unsigned threads);
 

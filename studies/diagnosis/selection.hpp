@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/locate.hpp"
+#include "flexspline/studies/diagnosis.hpp"
 
 namespace flexspline::studies {
 
@@ -42,15 +43,17 @@ struct Accepted {
   std::vector<Trial> field;   ///< every other cause refined in that round
   bool material = true;       ///< else it is in the model, but too small to be named
   std::string_view withdrawn_because = {};
+  double probability = kNotComputed;  ///< of a name that is more likely wrong than right
 };
 
 /// The end of the search.
 struct Selection {
-  Findings baseline;                 ///< with the immaterial causes, which come first in its model
-  Findings final;                    ///< with the accepted causes behind them, or the baseline
+  Findings baseline;  ///< with the immaterial causes, which come first in its model
+  Findings final;     ///< with the accepted causes behind them, and the unnamed behind those
   std::vector<Accepted> immaterial;  ///< significant, but too small to be named, or of the baseline
   std::vector<Accepted> accepted;
-  std::vector<Trial> last_field;        ///< of the round in which none was accepted
+  std::vector<Accepted> unnamed;  ///< last in the final model: confirmed, their names improbable
+  std::vector<Trial> last_field;  ///< of the round in which none was accepted
   std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual: locate_misfit()
   std::vector<CoordinateScore> after;   ///< of the final residual
   bool remainder = false;               ///< something is left beyond noise

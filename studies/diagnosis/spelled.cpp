@@ -86,24 +86,6 @@ void add_round(const Accepted& a, int round, const Limits& limits,
   }
 }
 
-// "falls to 46 % of before", and what that means.
-std::string proof_in_words(const HoldoutProof& proof, std::size_t causes) {
-  const char* them = causes == 1 ? "it" : "them";
-  if (!std::isfinite(proof.ratio)) {
-    return fmt::format("No recording could be held out to prove {}", them);
-  }
-  const std::string error =
-      proof.folds > 0 ? fmt::format(
-                            "error of the whole search on recordings that it did not have "
-                            "({} outer fold{})",
-                            proof.folds, proof.folds == 1 ? "" : "s")
-      : proof.nested ? "error on recordings taken away before the search"
-                     : "cross-validated error (selection not nested)";
-  const char* change = proof.ratio < 1.0 ? "falls" : "rises";
-  return fmt::format("With {} the {} {} to {:.0f} % of before, {:.3g} times the noise", them, error,
-                     change, 100.0 * proof.ratio, proof.over_noise());
-}
-
 std::string why_immaterial(const Trial& trial, const Limits& limits) {
   if (trial.size < limits.interest) {
     return fmt::format("there, but {:.2g} % of torque is too small to be named",
@@ -111,12 +93,6 @@ std::string why_immaterial(const Trial& trial, const Limits& limits) {
   }
   return fmt::format("there, but a gain of {:.3g} in chi square is too small to be named",
                      trial.net_gain);
-}
-
-// One; one and another; one, another and a third.
-std::string listed(const std::vector<std::string>& names) {
-  if (names.size() < 2) return names.empty() ? "" : names.front();
-  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
 // The first and the last row of a segment that count: what a recording begins with may be the end
@@ -225,6 +201,11 @@ std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& lim
     list.push_back(tried(a.trial, ++round, why_immaterial(a.trial, limits)));
   }
   for (const Accepted& a : s.accepted) add_round(a, ++round, limits, list);
+  for (const Accepted& a : s.unnamed) {
+    list.push_back(
+        tried(a.trial, ++round,
+              fmt::format("in the model without its name, of probability {:.2g}", a.probability)));
+  }
   for (const Accepted& a : s.withdrawn) add_round(a, ++round, limits, list);
   ++round;
   for (const Trial& t : s.last_field) {
@@ -294,48 +275,6 @@ std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection&
     list[i].split = out[frame.segments[i].first] > 0.0 ? Split::holdout : Split::train;
   }
   return list;
-}
-
-std::string spelled_verdict(const Selection& s, const Limits& limits, const Diagnosis& d) {
-  std::vector<std::string> names;
-  for (const Cause& cause : d.causes) {
-    std::string name = cause.effect;
-    if (!cause.alternatives.empty()) {
-      name += fmt::format(" (or {}, confounded with it on these recordings)",
-                          fmt::join(cause.alternatives, " or "));
-    }
-    names.push_back(std::move(name));
-  }
-  const std::string named = listed(names);
-  switch (d.verdict) {
-    case Verdict::adequate:
-      return "Nothing is missing: the baseline explains the recordings to within their noise.";
-    case Verdict::explained:
-      return fmt::format("Missing: {}. {}.", named, proof_in_words(d.holdout, d.causes.size()));
-    case Verdict::partly_explained:
-      return fmt::format(
-          "Missing: {}. {}, and an unexplained residual remains that no catalogued effect "
-          "explains.",
-          named, proof_in_words(d.holdout, d.causes.size()));
-    case Verdict::unexplained:
-    case Verdict::undecided:
-      break;
-  }
-  const bool incident = !d.mismatch.empty() && d.mismatch.front().coordinate == "window";
-  if (!s.remainder && incident) return fmt::format("{}.", d.mismatch.front().says);
-  if (!s.remainder && left_unnamed(s, limits) == nullptr) {
-    return fmt::format(
-        "Physics is missing that no catalogued effect explains: the error on held-out "
-        "recordings is {:.3g} times the noise.",
-        d.holdout.over_noise());
-  }
-  if (!s.remainder) {
-    return fmt::format("Physics is missing, too little to be named; {}.", d.mismatch.front().says);
-  }
-  return d.mismatch.empty()
-             ? "Physics is missing that no catalogued effect explains."
-             : fmt::format("Physics is missing that no catalogued effect explains; {}.",
-                           d.mismatch.front().says);
 }
 
 }  // namespace flexspline::studies

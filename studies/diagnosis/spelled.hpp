@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnosis/prove.hpp"
+#include "diagnosis/resonance.hpp"
 #include "diagnosis/ripple_finding.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -15,10 +16,11 @@ std::string baseline_in_words(const Frame& frame);
 std::vector<std::string> spelled_parts(const Selection& selection);
 std::vector<Cause> spelled_causes(const Frame& frame, const Selection& selection,
                                   const Proof& proof);
-/// Coordinates of the causes first, then those of the scan by strength, each with the window where
-/// it is largest.
+/// Incidents, coordinates of the causes, a resonance, then those of the scan by strength, each with
+/// the window where it is largest.
 std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& selection,
-                                       const Limits& limits);
+                                       const Limits& limits,
+                                       const std::optional<Resonance>& resonance);
 /// A ripple over the motor's angle: a note; its coordinate and its name where no cause took it.
 void spell_ripple(const Frame& frame, const Selection& selection, const RippleFinding& finding,
                   Diagnosis& diagnosis);
@@ -33,6 +35,6 @@ std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation,
 std::vector<DiagnosedSeries> spelled_series(const Frame& frame, const Selection& selection,
                                             const Proof& proof);
 std::string spelled_verdict(const Selection& selection, const Limits& limits,
-                            const Diagnosis& diagnosis);
+                            const std::optional<Resonance>& resonance, const Diagnosis& diagnosis);
 
 }  // namespace flexspline::studies

@@ -40,6 +40,16 @@ Mismatch mismatch_of(const Frame& frame, const Selection& s, const Accepted& sma
   return m;
 }
 
+// What a cause of the model takes away, named or not; its message still lacks the cause.
+Mismatch explained(const Frame& frame, const Selection& s, const Accepted& a) {
+  const Equation equation = first_equation(frame, *a.trial.cause.form);
+  Mismatch m = at_worst(frame, s.baseline, equation);
+  m.coordinate = a.trial.cause.row->coordinate;
+  m.share_of_excess = std::clamp(a.trial.removed, 0.0, 1.0);
+  m.says = fmt::format("the {} equation misses ", name_of(equation));
+  return m;
+}
+
 Mismatch incident_in(const Frame& frame, const Incident& one) {
   const Segment& s = frame.segments[one.segment];
   return {.recording = s.id,
@@ -55,19 +65,25 @@ Mismatch incident_in(const Frame& frame, const Incident& one) {
 
 }  // namespace
 
-std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s,
-                                       const Limits& limits) {
+std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s, const Limits& limits,
+                                       const std::optional<Resonance>& resonance) {
   std::vector<Mismatch> list;
   for (const Incident& one : frame.incidents) list.push_back(incident_in(frame, one));
   for (const Accepted& a : s.accepted) {
     if (listed(list, a.trial.cause.row->coordinate)) continue;
-    const Equation equation = first_equation(frame, *a.trial.cause.form);
-    Mismatch m = at_worst(frame, s.baseline, equation);
-    m.coordinate = a.trial.cause.row->coordinate;
-    m.share_of_excess = std::clamp(a.trial.removed, 0.0, 1.0);
-    m.says = fmt::format("the {} equation misses {}: {}", name_of(equation), a.trial.cause.row->id,
-                         a.trial.cause.form->equation);
-    list.push_back(std::move(m));
+    list.push_back(explained(frame, s, a));
+    list.back().says += fmt::format("{}: {}", a.trial.cause.row->id, a.trial.cause.form->equation);
+  }
+  for (const Accepted& a : s.unnamed) {
+    if (listed(list, a.trial.cause.row->coordinate)) continue;
+    list.push_back(explained(frame, s, a));
+    list.back().says += fmt::format("what has the form of {}, a name of probability {:.2g}",
+                                    a.trial.cause.row->id, a.probability);
+  }
+  if (resonance) {
+    list.push_back(at_worst(frame, s.final, resonance->equation));
+    list.back().coordinate = "lag";
+    list.back().says = in_words(*resonance);
   }
   if (const Accepted* small = left_unnamed(s, limits)) {
     list.push_back(mismatch_of(frame, s, *small));

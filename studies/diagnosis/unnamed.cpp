@@ -9,10 +9,9 @@
 
 #include "diagnosis/cause_columns.hpp"
 #include "diagnosis/coordinates.hpp"
-#include "diagnosis/folds.hpp"
-#include "diagnosis/held_out_error.hpp"
 #include "diagnosis/smooth_table.hpp"
 #include "diagnosis/table_form.hpp"
+#include "diagnosis/unnamed_proof.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -127,29 +126,17 @@ Found found_in(const Frame& frame, const Findings& findings, Equation equation) 
   return found;
 }
 
-// Errors on the rows held out without and with the table that the other rows choose.
+// By tables that the other rows choose.
 HoldoutProof proved(const Frame& frame, const Findings& findings, const Proof& proof,
                     const Found& found) {
   const std::size_t e = index_of(found.equation);
-  const auto folds = folds_of(frame);
-  ArrayXd before = ArrayXd::Zero(frame.rows()), after = before, held = before;
-  for (std::size_t k = 0; k < folds.size(); ++k) {
-    const ArrayXd rows = folds[k] * frame.usable;
-    const ArrayXd& residual = proof.by_fold[k].residual[e];
-    const Best best = best_of(found.candidates, residual, findings.weight[e] * (1.0 - folds[k]),
-                              findings.noise[e].colour);
-    held += rows;
-    before += residual * rows;
-    after += residual * rows;
-    if (best.candidate != nullptr) after -= best.candidate->table.at_rows(best.fit.u) * rows;
-  }
-  HoldoutProof h;
-  h.rmse_before = rms_on(before, held);
-  h.rmse_after = rms_on(after, held);
-  h.ratio = h.rmse_after / h.rmse_before;
-  h.noise_floor = noise_on(frame, findings.noise[e].level, held);
-  resample_ratio(frame, held, before, after, h);
-  return h;
+  return proof_of_part(frame, findings, proof, found.equation,
+                       [&](const ModelFit& fold, const ArrayXd& weight) -> ArrayXd {
+                         const Best best = best_of(found.candidates, fold.residual[e], weight,
+                                                   findings.noise[e].colour);
+                         if (best.candidate == nullptr) return ArrayXd::Zero(frame.rows());
+                         return best.candidate->table.at_rows(best.fit.u);
+                       });
 }
 
 // Of the mean square beyond noise that is left on recordings held out.
@@ -200,10 +187,7 @@ UnnamedPart spelled(const Frame& frame, const Findings& findings, const Found& f
 std::optional<UnnamedPart> part_of(const Frame& frame, const Selection& s, const Proof& proof,
                                    const Limits& limits, const Found& found) {
   const HoldoutProof h = proved(frame, s.final, proof, found);
-  const double taken =
-      std::sqrt(std::max(h.rmse_before * h.rmse_before - h.rmse_after * h.rmse_after, 0.0));
-  const double trifle = limits.trifle() * frame.largest_torque(found.equation);
-  if (!(h.ci95_upper < 1.0) || !(taken > trifle)) return std::nullopt;
+  if (!is_proved_part(frame, h, found.equation, limits)) return std::nullopt;
   return spelled(frame, s.final, found, h);
 }
 

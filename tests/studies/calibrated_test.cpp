@@ -38,23 +38,24 @@ TEST(ProbabilityRight, IsLinearInTheLogOdds) {
       << "by the logarithm of the share";
 }
 
-// Recordings of twice the noise, and of less of everything: what is left of the misfit is the same.
-TEST(ProbabilityRight, GoesByTheShareOfTheMisfitThatIsLeft) {
+// Of the baseline's mean square, noise included, what is left beyond noise.
+TEST(ProbabilityRight, GoesByTheShareThatIsLeftBeyondNoise) {
   const auto of = [](double before, double after) {
     return probability_right({.ratio = 0.5,
                               .over_noise = std::sqrt(1.0 + after),
                               .before_over_noise = std::sqrt(1.0 + before),
                               .left_over = 0.01});
   };
-  EXPECT_NEAR(of(8.0, 2.0), of(2.0, 0.5), 1e-12);
+  EXPECT_NEAR(of(8.0, 1.5), of(2.0, 0.5), 1e-12) << "a sixth";
   EXPECT_GT(of(8.0, 0.5), of(8.0, 2.0));
+  EXPECT_LT(of(8.0, 8.0), 0.5) << "a name that leaves all is more likely wrong than right";
 }
 
 TEST(ProbabilityRight, SaysNoMoreThanWasCalibrated) {
   EXPECT_EQ(probability_right({.ratio = 1.0}), probability_right({.ratio = 2.0}));
   EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 0.9, .before_over_noise = 2.0}),
             probability_right({.ratio = 0.5, .over_noise = 1.0, .before_over_noise = 2.0}));
-  EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 2.0, .before_over_noise = 2.0}),
+  EXPECT_EQ(probability_right({.ratio = 0.5, .over_noise = 3.0, .before_over_noise = 2.0}),
             probability_right({.ratio = 0.5, .over_noise = 6.0, .before_over_noise = 2.0}));
   const double sure = probability_right({.ratio = 0.0});
   EXPECT_GT(sure, 0.95);

@@ -98,10 +98,14 @@ TEST_F(Rivals, StandWithANameThatIsMoreLikelyRightThanWrong) {
   proof = confirm(frame_, limits_, doubted);
   ASSERT_TRUE(proof) << proof.error().message();
   EXPECT_TRUE(doubted.accepted.empty());
-  ASSERT_THAT(ids(doubted.withdrawn), testing::ElementsAre(kHidden));
-  EXPECT_THAT(std::string(doubted.withdrawn.front().withdrawn_because),
+  ASSERT_THAT(ids(doubted.unnamed), testing::ElementsAre(kHidden));
+  EXPECT_THAT(std::string(doubted.unnamed.front().withdrawn_because),
               testing::HasSubstr("more likely wrong"));
-  EXPECT_TRUE(doubted.remainder) << "what it explained is still there";
+  NameEvidence either = cause.name;
+  either.alternatives = 0;
+  EXPECT_NEAR(doubted.unnamed.front().probability, probability_right(either), 1e-9);
+  EXPECT_TRUE(doubted.remainder) << "no name explains it";
+  EXPECT_LT(proof->holdout.ratio, 0.8) << "but the model has it";
 }
 
 TEST_F(Rivals, ThatAreNamedThemselvesAreNoAlternatives) {
