@@ -8,7 +8,7 @@ namespace {
 constexpr double kLeastShare = 0.002;
 constexpr double kLeast = 1e-3;        // of what is left over; cases are too few to tell less
 constexpr double kMostLeftOver = 0.3;  // beyond it cases are too few to tell more
-constexpr double kNone = 5.5, kOfShare = 0.6, kOfRest = -9.5, kOfLeftOver = -0.6,
+constexpr double kNone = 5.5, kOfShare = 0.7, kOfRest = -10.0, kOfLeftOver = -0.6,
                  kOfAlternatives = -1.4;
 
 // NaN stays.

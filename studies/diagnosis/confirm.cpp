@@ -36,23 +36,8 @@ void complete(const Frame& frame, const Selection& s, Proof& proof) {
   }
 }
 
-// That the name or one of its alternatives is right; 0 of one that could not be judged.
-double probability_of(const CauseProof& cause) {
-  NameEvidence either = cause.name;
-  either.alternatives = 0;
-  const double probability = probability_right(either);
-  return std::isnan(probability) ? 0.0 : probability;
-}
-
 bool stands(const CauseProof& cause, const Limits& limits) {
   return is_confirmed(cause, limits) && probability_of(cause) >= limits.probability;
-}
-
-// Of those that are more likely wrong than right the least probable.
-std::optional<std::size_t> improbable(const Proof& proof, const Limits& limits) {
-  const auto least = std::ranges::min_element(proof.causes, {}, probability_of);
-  if (least == proof.causes.end() || stands(*least, limits)) return std::nullopt;
-  return least - proof.causes.begin();
 }
 
 bool acts_elsewhere(const Frame& frame, const CauseForm& form, Equation equation) {
@@ -87,21 +72,6 @@ Result<void> leave_out_taken_back(const Frame& frame, const Limits& limits, Sele
   return {};
 }
 
-/// The proof of a selection, and the cause that it takes to go.
-struct Checked {
-  Proof proof;
-  std::optional<std::size_t> doubtful;
-};
-
-Result<Checked> checked(const Frame& frame, const Limits& limits, const Selection& s) {
-  auto proof = prove(frame, s, limits.threads);
-  if (!proof) return tl::unexpected(proof.error());
-  if (const auto cause = unconfirmed(*proof, limits)) return Checked{std::move(*proof), cause};
-  complete(frame, s, *proof);
-  const auto cause = improbable(*proof, limits);
-  return Checked{std::move(*proof), cause};
-}
-
 // What explains the same signal nearly as well as a cause that does not stand, if it stands itself.
 Result<std::optional<Selection>> with_rival_that_stands(const Frame& frame, const Limits& limits,
                                                         Selection s, std::size_t cause) {
@@ -125,8 +95,21 @@ Result<std::optional<Selection>> with_rival_that_stands(const Frame& frame, cons
   return std::move(*other);
 }
 
-std::string_view why_not(const CauseProof& cause, const Limits& limits) {
-  if (is_confirmed(cause, limits)) return "it is more likely wrong than right";
+// In place of one that recordings held out do not confirm, or else of one whose name is improbable;
+// none where no rival stands.
+Result<std::optional<Selection>> exchanged(const Frame& frame, const Limits& limits,
+                                           const Selection& s, const Proof& proof,
+                                           std::optional<std::size_t> doubtful) {
+  if (doubtful) return with_rival_that_stands(frame, limits, s, *doubtful);
+  for (std::size_t i = 0; i < proof.causes.size(); ++i) {
+    if (stands(proof.causes[i], limits)) continue;
+    auto other = with_rival_that_stands(frame, limits, s, i);
+    if (!other || *other) return other;
+  }
+  return std::nullopt;
+}
+
+std::string_view why_not(const CauseProof& cause) {
   return cause.gain > 0.0 ? "it hardly lowers the error on recordings held out"
                           : "it does not lower the error on recordings held out";
 }
@@ -144,34 +127,26 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
 }
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
-  std::vector<Accepted> improbable;
   while (true) {
     const auto told = leave_out_taken_back(frame, limits, s);
     if (!told) return tl::unexpected(told.error());
-    auto check = checked(frame, limits, s);
-    if (!check) return tl::unexpected(check.error());
-    auto& [proof, doubtful] = *check;
-    if (!doubtful) {
+    auto proof = prove(frame, s, limits.threads);
+    if (!proof) return proof;
+    const auto doubtful = unconfirmed(*proof, limits);
+    if (!doubtful) complete(frame, s, *proof);
+    auto other = exchanged(frame, limits, s, *proof, doubtful);
+    if (!other) return tl::unexpected(other.error());
+    if (*other) {
+      s = std::move(**other);
+    } else if (doubtful) {
+      s.unproved = s.unproved || leaves_a_question(frame, limits, s, *doubtful);
+      const auto left_out = leave_out(frame, s, *doubtful, why_not(proof->causes[*doubtful]));
+      if (!left_out) return tl::unexpected(left_out.error());
+    } else {
       const auto fitted = fit_all(frame, s.final, kFinalSteps, kJudgedFall);
       if (!fitted) return tl::unexpected(fitted.error());
-      locate_misfit(frame, limits, s);
-      return with_unnamed(frame, limits, std::move(improbable), std::move(proof), s);
+      return take_improbable_names(frame, limits, s, std::move(*proof));
     }
-    auto exchanged = with_rival_that_stands(frame, limits, s, *doubtful);
-    if (!exchanged) return tl::unexpected(exchanged.error());
-    if (*exchanged) {
-      s = std::move(**exchanged);
-      continue;
-    }
-    const CauseProof& cause = proof.causes[*doubtful];
-    s.unproved = s.unproved ||
-                 (!is_confirmed(cause, limits) && leaves_a_question(frame, limits, s, *doubtful));
-    const auto left_out = leave_out(frame, s, *doubtful, why_not(cause, limits));
-    if (!left_out) return tl::unexpected(left_out.error());
-    if (!is_confirmed(cause, limits)) continue;
-    improbable.push_back(std::move(s.withdrawn.front()));
-    improbable.back().probability = probability_of(cause);
-    s.withdrawn.erase(s.withdrawn.begin());
   }
 }
 

@@ -69,6 +69,13 @@ Verdict verdict_of(const Decision& d, const Limits& limits) {
   return left ? Verdict::unexplained : Verdict::adequate;
 }
 
+// Of motions that come again a mode follows much that is none: what a table follows better is not
+// told as one.
+bool is_told_better(const std::optional<UnnamedPart>& table, const std::optional<Resonance>& mode) {
+  return table && mode && table->equation == name_of(mode->equation) &&
+         table->holdout_ratio < mode->proof.ratio;
+}
+
 }  // namespace
 
 Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settings,
@@ -98,6 +105,7 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   d.verdict = verdict_of(d, limits);
   if (d.verdict != Verdict::adequate && d.verdict != Verdict::explained) {
     d.unnamed = unnamed_part(d.finding.frame, d.finding.selection, d.finding.proof, limits);
+    if (is_told_better(d.unnamed, d.resonance)) d.resonance.reset();
   }
   d.undecided = undecidable(d.finding.frame, d.finding.selection, d.verdict, limits);
   if (d.undecided) d.verdict = Verdict::undecided;

@@ -15,7 +15,7 @@ namespace flexspline::studies {
 struct Decision {
   Finding finding;                      ///< of all recordings that were searched
   std::optional<RippleFinding> ripple;  ///< in the fast changes, which the search counts as noise
-  std::optional<Resonance> resonance;   ///< that the model lacks
+  std::optional<Resonance> resonance;   ///< that the model lacks, unless a table follows it better
   HoldoutProof proof;                   ///< of recordings that the search had not
   std::optional<HoldoutProof> cross_validated;  ///< of the recordings searched, where proof is not
   std::optional<NestedProof> nested;            ///< by outer fold

@@ -13,7 +13,8 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
   if (!s.accepted.empty()) return most;
   for (const Accepted& a : s.immaterial) {
     if (a.trial.cause.row->of_baseline()) continue;
-    const bool seen = a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.tenth;
+    const bool seen = a.trial.net_gain >= limits.named_gain && a.trial.removed > limits.tenth &&
+                      a.trial.size > limits.half * limits.interest;
     if (seen && (most == nullptr || a.trial.removed > most->trial.removed)) most = &a;
   }
   return most;

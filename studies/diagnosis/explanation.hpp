@@ -8,8 +8,9 @@ namespace flexspline::studies {
 bool is_left(const CoordinateScore& score, const Limits& limits);
 
 /// Of the causes too small to be named the one that takes most away, if it is worth as much as a
-/// named one and orders as much as a remainder: the baseline alone is then no explanation. Null
-/// where there is none, and beside named causes, whose forms may be what it mends.
+/// named one, orders as much as a remainder and has half of a size of interest: the baseline alone
+/// is then no explanation. Null where there is none, and beside named causes, whose forms may be
+/// what it mends.
 const Accepted* left_unnamed(const Selection& s, const Limits& limits);
 
 /// True where more than noise is left: the model's own error is larger than the noise, and no

@@ -198,11 +198,8 @@ bool is_confirmed(const CauseProof& cause, const Limits& limits) {
   return cause.gain >= limits.gain;
 }
 
-std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits,
-                                       std::size_t first) {
-  const auto least =
-      std::ranges::min_element(proof.causes.begin() + static_cast<std::ptrdiff_t>(first),
-                               proof.causes.end(), {}, held_out_gain);
+std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits) {
+  const auto least = std::ranges::min_element(proof.causes, {}, held_out_gain);
   if (least == proof.causes.end() || is_confirmed(*least, limits)) return std::nullopt;
   return least - proof.causes.begin();
 }

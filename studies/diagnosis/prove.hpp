@@ -37,10 +37,8 @@ struct Proof {
 /// True where recordings held out say that a cause is there.
 bool is_confirmed(const CauseProof& cause, const Limits& limits);
 
-/// Of the causes from a first one on that are not confirmed the one that helps least; none where
-/// all are.
-std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits,
-                                       std::size_t first = 0);
+/// Of the causes that are not confirmed the one that helps least; none where all are.
+std::optional<std::size_t> unconfirmed(const Proof& proof, const Limits& limits);
 
 /// The same for any number of threads; 0: as many as the machine has.
 Result<Proof> prove(const Frame& frame, const Selection& selection, unsigned threads);

@@ -43,7 +43,7 @@ struct Accepted {
   std::vector<Trial> field;   ///< every other cause refined in that round
   bool material = true;       ///< else it is in the model, but too small to be named
   std::string_view withdrawn_because = {};
-  double probability = kNotComputed;  ///< of a name that is more likely wrong than right
+  double probability = kNotComputed;  ///< of the name or an alternative, once it is confirmed
 };
 
 /// The end of the search.

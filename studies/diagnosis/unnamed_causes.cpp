@@ -1,7 +1,7 @@
 #include "diagnosis/unnamed_causes.hpp"
 
-#include <iterator>
-#include <utility>
+#include <algorithm>
+#include <cmath>
 
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/undecided.hpp"
@@ -9,73 +9,82 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr int kSteps = 8;
-constexpr int kFinalSteps = 12;
-
-// Behind the accepted causes, in the order in which they were withdrawn.
-Result<Selection> with_all(const Frame& frame, Selection s, const std::vector<Accepted>& causes) {
-  for (const Accepted& one : causes) {
-    auto fit = extended(frame, s.final, one.trial.cause, kSteps);
-    if (!fit) return tl::unexpected(fit.error());
-    s.final.fit = std::move(*fit);
-    s.accepted.push_back(one);
+// The causes of the proof whose names are improbable go to the end of the list and of the model.
+std::size_t put_improbable_last(Selection& s, Proof& proof, const Limits& limits) {
+  DriveModel& model = s.final.fit.model;
+  std::size_t named = s.accepted.size();
+  for (std::size_t i = s.accepted.size(); i-- > 0;) {
+    s.accepted[i].probability = probability_of(proof.causes[i]);
+    if (s.accepted[i].probability >= limits.probability) continue;
+    const auto to_the_end = [&](auto& list, std::size_t at) {
+      const auto first = list.begin() + static_cast<std::ptrdiff_t>(at);
+      std::rotate(first, first + 1, list.end());
+    };
+    to_the_end(s.accepted, i);
+    to_the_end(proof.causes, i);
+    to_the_end(model.causes, s.immaterial.size() + i);
+    to_the_end(model.coefficients, s.immaterial.size() + i);
+    --named;
   }
-  const auto fitted = refresh(frame, s.final, kSteps);
-  if (!fitted) return tl::unexpected(fitted.error());
+  return named;
+}
+
+// With the first causes alone.
+Result<Selection> first_causes(const Frame& frame, const Limits& limits, Selection s,
+                               std::size_t count) {
+  while (s.accepted.size() > count) {
+    const auto left_out =
+        leave_out(frame, s, s.accepted.size() - 1, "it is more likely wrong than right");
+    if (!left_out) return tl::unexpected(left_out.error());
+  }
+  locate_misfit(frame, limits, s);
   return s;
 }
 
-// The causes from the first on become unnamed ones.
-void take_names(Selection& s, std::size_t first) {
-  const auto from = s.accepted.begin() + static_cast<long>(first);
-  s.unnamed.assign(std::make_move_iterator(from), std::make_move_iterator(s.accepted.end()));
-  s.accepted.erase(from, s.accepted.end());
+void take_names(Selection& s, std::size_t from) {
+  const auto first = s.accepted.begin() + static_cast<std::ptrdiff_t>(from);
+  s.unnamed.assign(std::make_move_iterator(first), std::make_move_iterator(s.accepted.end()));
+  s.accepted.erase(first, s.accepted.end());
 }
 
-void withdraw(Selection& s, std::vector<Accepted> causes) {
-  s.withdrawn.insert(s.withdrawn.begin(), std::make_move_iterator(causes.begin()),
-                     std::make_move_iterator(causes.end()));
-}
-
-// Without those, from the first on, that recordings held out do not confirm.
-Result<Proof> prove_confirmed(const Frame& frame, const Limits& limits, Selection& s,
-                              std::size_t first) {
-  while (true) {
-    auto proof = prove(frame, s, limits.threads);
-    if (!proof) return proof;
-    const auto worst = unconfirmed(*proof, limits, first);
-    if (!worst) {
-      const auto fitted = fit_all(frame, s.final, kFinalSteps, kJudgedFall);
-      if (!fitted) return tl::unexpected(fitted.error());
-      return proof;
-    }
-    const auto left_out = leave_out(frame, s, *worst, s.accepted[*worst].withdrawn_because);
-    if (!left_out) return tl::unexpected(left_out.error());
-  }
+// What the named causes leave.
+void take_misfit(Selection& s, Selection named) {
+  s.before = std::move(named.before);
+  s.after = std::move(named.after);
+  s.remainder = named.remainder;
 }
 
 }  // namespace
 
-Result<Proof> with_unnamed(const Frame& frame, const Limits& limits,
-                           std::vector<Accepted> improbable, Proof named, Selection& s) {
-  const bool left = s.remainder || is_beyond_noise(frame, named.holdout, limits);
-  if (improbable.empty() || !left) {
-    withdraw(s, std::move(improbable));
-    return named;
+double probability_of(const CauseProof& cause) {
+  NameEvidence either = cause.name;
+  either.alternatives = 0;
+  const double probability = probability_right(either);
+  return std::isnan(probability) ? 0.0 : probability;
+}
+
+Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Selection& s,
+                                    Proof proof) {
+  const std::size_t count = put_improbable_last(s, proof, limits);
+  if (count == s.accepted.size()) {
+    locate_misfit(frame, limits, s);
+    return proof;
   }
-  auto whole = with_all(frame, s, improbable);
-  if (!whole) return tl::unexpected(whole.error());
-  if (!implausible(frame, *whole, limits).empty()) {
-    withdraw(s, std::move(improbable));
-    return named;
+  auto named = first_causes(frame, limits, s, count);
+  if (!named) return tl::unexpected(named.error());
+  auto proof_of_named = prove(frame, *named, limits.threads);
+  if (!proof_of_named) return proof_of_named;
+  const bool left = named->remainder || is_beyond_noise(frame, proof_of_named->holdout, limits);
+  const bool stay = left && implausible(frame, s, limits).empty();
+  proof.causes.resize(count);
+  if (stay) {
+    take_names(s, count);
+    take_misfit(s, std::move(*named));
+    return proof;
   }
-  const std::size_t first = s.accepted.size();
-  auto proof = prove_confirmed(frame, limits, *whole, first);
-  if (!proof) return proof;
-  proof->causes = std::move(named.causes);
-  take_names(*whole, first);
-  s = std::move(*whole);
-  return proof;
+  s = std::move(*named);
+  proof_of_named->causes = std::move(proof.causes);
+  return proof_of_named;
 }
 
 }  // namespace flexspline::studies

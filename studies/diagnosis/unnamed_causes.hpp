@@ -1,17 +1,19 @@
 #pragma once
 
-#include <vector>
-
 #include "diagnosis/prove.hpp"
 
 namespace flexspline::studies {
 
-/// Puts causes whose names are improbable back into the model, without their names, where the
-/// confirmed model leaves something: a doubted name is no reason to predict worse. Those that
-/// recordings held out no longer confirm beside the others stay withdrawn, and all of them where
-/// one would be implausible. What is returned has the errors of the whole model, and of the named
-/// causes what was said of them without the unnamed.
-Result<Proof> with_unnamed(const Frame& frame, const Limits& limits,
-                           std::vector<Accepted> improbable, Proof named, Selection& selection);
+/// That the name of a cause or one of its alternatives is right; 0 of one that could not be judged.
+double probability_of(const CauseProof& cause);
+
+/// Takes the names of causes that recordings held out confirm and whose name is less likely than
+/// limits.probability: a doubted name is no reason to predict worse. Where the named causes alone
+/// leave no more than noise, or an unnamed one would be implausible, these are withdrawn; else they
+/// stay, behind the named ones, and Selection has what the named causes leave, as that is what no
+/// name explains. proof: of all the causes, with the evidence of their names; what is returned has
+/// the errors of the model that stays, and the named causes as they were proved beside the others.
+Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Selection& selection,
+                                    Proof proof);
 
 }  // namespace flexspline::studies

@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 constexpr std::string_view kHidden = "presliding_hysteresis";
 constexpr Eigen::Index kRows = 4000;
@@ -34,85 +35,108 @@ class UnnamedCauses : public testing::Test {
     frame_ = std::move(*made);
     auto selection = select_causes(frame_, limits_, {});
     ASSERT_TRUE(selection) << selection.error().message();
-    whole_ = std::move(*selection);
-    ASSERT_TRUE(settle_baseline(frame_, whole_));
-    ASSERT_THAT(ids(whole_.accepted), ElementsAre(kHidden));
-    improbable_ = {whole_.accepted.front()};
-    without_ = whole_;
-    ASSERT_TRUE(leave_out(frame_, without_, 0, "it is more likely wrong than right"));
-    without_.withdrawn.clear();
-    locate_misfit(frame_, limits_, without_);
+    s_ = std::move(*selection);
+    ASSERT_TRUE(settle_baseline(frame_, s_));
+    ASSERT_THAT(ids(s_.accepted), ElementsAre(kHidden));
   }
 
-  // Puts causes back into a selection as confirm() does.
-  Proof put_back(Selection& s, std::vector<Accepted> improbable) const {
-    auto named = prove(frame_, s, 0);
-    EXPECT_TRUE(named);
-    auto proof = with_unnamed(frame_, limits_, std::move(improbable), std::move(*named), s);
-    EXPECT_TRUE(proof) << proof.error().message();
-    return std::move(*proof);
-  }
-
-  // Of all others that are no friction the one that gains least on the baseline.
-  std::vector<Accepted> least_of_all() const {
-    auto trials = try_causes(frame_, whole_.baseline);
+  // Puts the least of all others that are no friction before the hidden cause.
+  void add_least_of_all() {
+    auto trials = try_causes(frame_, s_.baseline);
     std::erase_if(trials, [](const Trial& t) {
       return t.cause.row == nullptr || t.cause.row->of_baseline() || t.cause.form->friction;
     });
-    Accepted least = whole_.accepted.front();
+    Accepted least = s_.accepted.front();
     least.trial = *std::ranges::min_element(trials, {}, &Trial::gain);
-    return {least};
+    s_.final.fit = least.trial.fit;
+    ASSERT_TRUE(fit_all(frame_, s_.final, 0));
+    auto both = extended(frame_, s_.final, s_.accepted.front().trial.cause, 8);
+    ASSERT_TRUE(both) << both.error().message();
+    s_.final.fit = std::move(*both);
+    s_.accepted.insert(s_.accepted.begin(), std::move(least));
+  }
+
+  // With probabilities of the names that are given.
+  Proof take_names(const std::vector<double>& probabilities) {
+    auto proof = prove(frame_, s_, 0);
+    EXPECT_TRUE(proof);
+    for (std::size_t i = 0; i < probabilities.size(); ++i) {
+      proof->causes[i].name = evidence_for(probabilities[i]);
+    }
+    before_ = proof->holdout;
+    auto after = take_improbable_names(frame_, limits_, s_, std::move(*proof));
+    EXPECT_TRUE(after) << after.error().message();
+    return std::move(*after);
+  }
+
+  // A name of that probability, by what is left beside it.
+  static NameEvidence evidence_for(double probability) {
+    NameEvidence name{.ratio = 0.9, .over_noise = 1.0, .before_over_noise = 3.0};
+    double lower = 1.0, upper = 3.0;
+    while (upper - lower > 1e-6) {
+      name.over_noise = 0.5 * (lower + upper);
+      (probability_right(name) > probability ? lower : upper) = name.over_noise;
+    }
+    return name;
   }
 
   Frame frame_;
   Limits limits_;
-  Selection whole_, without_;
-  std::vector<Accepted> improbable_;
+  Selection s_;
+  HoldoutProof before_;
 };
 
-TEST_F(UnnamedCauses, PredictAsWellAsNamedOnes) {
-  Selection named = whole_, s = without_;
-  const auto proof = put_back(s, improbable_);
-  EXPECT_THAT(ids(s.accepted), IsEmpty());
-  EXPECT_THAT(ids(s.unnamed), ElementsAre(kHidden));
-  EXPECT_THAT(ids(s.withdrawn), IsEmpty());
+TEST_F(UnnamedCauses, StayInTheModelWhereSomethingIsLeftWithoutThem) {
+  const auto proof = take_names({0.2});
+  EXPECT_THAT(ids(s_.accepted), IsEmpty());
+  EXPECT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
+  EXPECT_NEAR(s_.unnamed.front().probability, 0.2, 1e-4);
+  EXPECT_THAT(ids(s_.withdrawn), IsEmpty());
+  EXPECT_TRUE(s_.remainder) << "no name explains it";
   EXPECT_TRUE(proof.causes.empty()) << "a proof is of names";
-  const auto as_named = prove(frame_, named, 0);
-  ASSERT_TRUE(as_named);
-  EXPECT_LT(as_named->holdout.ratio, 0.8);
-  EXPECT_NEAR(proof.holdout.rmse_after, as_named->holdout.rmse_after,
-              0.02 * as_named->holdout.rmse_after);
-  EXPECT_NEAR(proof.holdout.rmse_before, as_named->holdout.rmse_before,
-              0.01 * as_named->holdout.rmse_before);
+  EXPECT_LT(proof.holdout.ratio, 0.8);
+  EXPECT_DOUBLE_EQ(proof.holdout.rmse_after, before_.rmse_after);
+  EXPECT_EQ(s_.final.fit.model.causes.size(), 1U);
 }
 
-TEST_F(UnnamedCauses, ThatHeldOutRecordingsDoNotConfirmStayOut) {
-  Selection s = without_;
-  const auto proof = put_back(s, least_of_all());
-  EXPECT_THAT(ids(s.unnamed), IsEmpty());
-  EXPECT_THAT(ids(s.withdrawn), testing::SizeIs(1));
-  EXPECT_EQ(s.final.fit.model.causes.size(), without_.final.fit.model.causes.size());
-  EXPECT_NEAR(proof.holdout.ratio, 1.0, 1e-3);
+TEST_F(UnnamedCauses, StandBehindThoseThatAreNamed) {
+  add_least_of_all();
+  std::ranges::reverse(s_.accepted);
+  std::ranges::reverse(s_.final.fit.model.causes);
+  std::ranges::reverse(s_.final.fit.model.coefficients);
+  const DriveModel model = s_.final.fit.model;
+  const std::string_view named = s_.accepted.back().trial.cause.row->id;
+  const auto proof = take_names({0.2, 0.9});
+  EXPECT_THAT(ids(s_.accepted), ElementsAre(named));
+  EXPECT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
+  ASSERT_EQ(proof.causes.size(), 1U);
+  EXPECT_NEAR(probability_of(proof.causes.front()), 0.9, 1e-4);
+  const DriveModel& moved = s_.final.fit.model;
+  EXPECT_EQ(moved.causes[0].row, model.causes[1].row);
+  EXPECT_EQ(moved.coefficients[0], model.coefficients[1]);
+  EXPECT_EQ(moved.causes[1].row, model.causes[0].row);
+  EXPECT_EQ(moved.coefficients[1], model.coefficients[0]);
 }
 
-TEST_F(UnnamedCauses, AreNotNeededWhereNothingIsLeft) {
-  Selection s = whole_;
-  locate_misfit(frame_, limits_, s);
-  put_back(s, least_of_all());
-  EXPECT_THAT(ids(s.accepted), ElementsAre(kHidden));
-  EXPECT_THAT(ids(s.unnamed), IsEmpty());
-  EXPECT_THAT(ids(s.withdrawn), testing::SizeIs(1));
+TEST_F(UnnamedCauses, AreWithdrawnWhereTheNamedLeaveNothing) {
+  add_least_of_all();
+  const auto proof = take_names({0.2, 0.9});
+  EXPECT_THAT(ids(s_.accepted), ElementsAre(kHidden));
+  EXPECT_THAT(ids(s_.unnamed), IsEmpty());
+  EXPECT_THAT(ids(s_.withdrawn), SizeIs(1));
+  EXPECT_EQ(s_.final.fit.model.causes.size(), 1U);
+  EXPECT_FALSE(s_.remainder);
+  ASSERT_EQ(proof.causes.size(), 1U);
 }
 
 // Else what looks like a mistaken channel would be written into the model.
-TEST_F(UnnamedCauses, ThatAreImplausibleStayOut) {
-  auto causes = least_of_all();
-  causes.front().trial.size = causes.front().trial.change = 0.9;
-  causes.push_back(improbable_.front());
-  Selection s = without_;
-  put_back(s, causes);
-  EXPECT_THAT(ids(s.unnamed), IsEmpty());
-  EXPECT_THAT(ids(s.withdrawn), testing::SizeIs(2));
+TEST_F(UnnamedCauses, AreWithdrawnWhereOneIsImplausible) {
+  add_least_of_all();
+  s_.accepted.front().trial.size = s_.accepted.front().trial.change = 0.9;
+  take_names({0.2, 0.2});
+  EXPECT_THAT(ids(s_.unnamed), IsEmpty());
+  EXPECT_THAT(ids(s_.withdrawn), SizeIs(2));
+  EXPECT_TRUE(s_.final.fit.model.causes.empty());
 }
 
 }  // namespace
