@@ -20,7 +20,7 @@ struct NameEvidence {
 /// model leaves beyond noise of the baseline's mean square, m and m0 their errors over the noise,
 /// from 0 to 1, l what is left over beside the cause, from 0.001 to 0.3, k the alternatives. The b
 /// are a logistic regression on names that were given on simulated cases of two generators and on
-/// effects added to recordings by others, right and wrong ones (docs/decisions/0036): a frequency
+/// effects added to recordings by others, right and wrong ones (docs/decisions/0037): a frequency
 /// among such cases, of which one in four hides something outside the catalogue or in a single
 /// recording. NaN where a number is.
 double probability_right(const NameEvidence& evidence);

@@ -161,9 +161,9 @@ std::optional<Resonance> find_resonance(const Frame& frame, const Findings& fina
 
 std::string in_words(const Resonance& r) {
   return fmt::format(
-      "the {} equation misses a resonance: the answer to its torque of a mode of {:.3g} Hz, "
-      "damping "
-      "ratio {:.2g}, {:.2g} % of torque at most, lowers the error on recordings held out to {:.0f} "
+      "the {} equation misses a resonance at {:.3g} Hz (damping ratio {:.2g}, {:.2g} % of torque "
+      "at "
+      "most): with a mode that answers its torque the error on recordings held out falls to {:.0f} "
       "% "
       "(95 %: {:.0f} to {:.0f})",
       name_of(r.equation), r.frequency / (2.0 * std::numbers::pi), r.damping, 100.0 * r.size,
