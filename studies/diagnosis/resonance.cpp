@@ -81,10 +81,14 @@ ModeFit fitted(const Frame& frame, const ArrayXd& u, const ArrayXd& residual, co
   return {mode, a, b, a * xr + b * yr};
 }
 
+// None where nothing moves or no time passes.
 std::vector<Mode> modes_on(const Frame& frame) {
-  const double highest = 2.0 * std::numbers::pi / (kRowsPerPeriod * frame.interval);
+  const double turn = 2.0 * std::numbers::pi;
+  const double lowest = std::max(1.0 / frame.longest_lag(), turn / frame.duration);
+  const double highest = turn / (kRowsPerPeriod * frame.interval);
   std::vector<Mode> modes;
-  for (double w = 1.0 / frame.longest_lag(); w < highest; w *= kSpacing) {
+  if (!(lowest > 0.0 && std::isfinite(highest))) return modes;
+  for (double w = lowest; w < highest; w *= kSpacing) {
     for (double z : kDampings) modes.push_back({w, z});
   }
   return modes;

@@ -22,7 +22,8 @@ struct Resonance {
 
 /// The resonance that takes most of what is left on recordings held out, over the largest torque of
 /// its equation, where it is proved there (is_proved_part). Frequencies from 1/longest_lag of the
-/// motion, below which a mode follows it, to five rows a period; damping ratios 0.005 to 0.7. Rows
+/// motion, below which a mode follows it, and one period in the longest recording, to five rows a
+/// period; damping ratios 0.005 to 0.7. Rows
 /// are taken as evenly spaced within a recording.
 std::optional<Resonance> find_resonance(const Frame& frame, const Findings& final,
                                         const Proof& proof, const Limits& limits);

@@ -110,5 +110,14 @@ TEST_F(OneResonance, IsNotLookedForAmongTrifles) {
   EXPECT_TRUE(found(2.0 * trifle / rms * ring + 0.01 * drawn(frame_.rows())));
 }
 
+TEST_F(OneResonance, IsNotLookedForWhereNoTimePasses) {
+  const ArrayXd ring = 0.1 * (place_of(frame_, torque_, kFrequency, kDamping) - torque_);
+  frame_.interval = 0.0;
+  EXPECT_FALSE(found(ring));
+  frame_.interval = 2e-3;
+  frame_.duration = 0.0;
+  EXPECT_FALSE(found(ring));
+}
+
 }  // namespace
 }  // namespace flexspline::studies
