@@ -139,10 +139,11 @@ TEST(HeldOut, OfTheEndsWhatTheRestReaches) {
 
 TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   const Limits limits;
+  double size = 0.8 * limits.interest;
   const auto left = [&](double gain, double removed, bool beside_a_cause = false) {
     Selection s;
     Accepted small;
-    small.trial = trial_of(0.5 * limits.interest, 0.5 * limits.interest, false);
+    small.trial = trial_of(size, size, false);
     small.trial.net_gain = gain;
     small.trial.removed = removed;
     s.immaterial = {small};
@@ -156,6 +157,8 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   EXPECT_FALSE(left(gain, 0.4 * removed)) << "it orders next to nothing";
   EXPECT_FALSE(left(gain, removed, true)) << "it may mend the form of what is named";
   EXPECT_EQ(left_unnamed(Selection{}, limits), nullptr);
+  size = 0.4 * limits.interest;
+  EXPECT_FALSE(left(gain, removed)) << "two of them would be of no interest";
 }
 
 TEST(Forms, OverTheMotorsAngleOfAServoNeedItsGearRatio) {
