@@ -182,6 +182,12 @@ void spell_effects(DiagnosisView& view) {
 
 }  // namespace
 
+bool DiagnosisView::has_additions() const {
+  return !causes.empty() || std::ranges::any_of(series, [](const ShownSeries& one) {
+    return !one.after.empty() && one.after != one.before;
+  });
+}
+
 bool DiagnosisView::has_equations() const {
   for (const ShownSeries& one : series) {
     if (one.equation != series.front().equation) return true;

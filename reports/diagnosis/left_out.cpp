@@ -73,8 +73,10 @@ Table evidence_table(const DiagnosisView& view) {
 std::string nothing_named(const DiagnosisView& view) {
   if (view.verdict == "undecided")
     return "Nothing is named: the effects are not identifiable from these recordings.";
-  return view.adequate()
-             ? "Nothing: the baseline is enough for these recordings."
+  if (view.adequate()) return "Nothing: the baseline is enough for these recordings.";
+  return view.has_additions()
+             ? "No name is more likely right than wrong. The model has a part without a name, in "
+               "the form of the effects that the verdict lists."
              : "No effect of the catalogue is named. The unexplained residual has a place (see "
                "above) but no physical name.";
 }

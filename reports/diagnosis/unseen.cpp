@@ -7,7 +7,7 @@ namespace flexspline::reports {
 namespace {
 
 std::string sentence_of(const DiagnosisView& view) {
-  if (!std::isfinite(view.after) || view.causes.empty()) {
+  if (!std::isfinite(view.after) || !view.has_additions()) {
     return "The baseline's misfit on recordings kept back is " + digits(view.before, 3) + " " +
            view.rmse_unit + ", " + digits(view.before / view.noise_floor, 3) +
            " times the noise floor of " + digits(view.noise_floor, 3) + " " + view.rmse_unit +
@@ -41,7 +41,7 @@ Table holdout_table(const DiagnosisView& view) {
     table.rows.push_back({name, rmse, rmse / view.noise_floor, ratio, lower, upper});
   };
   add("baseline", view.before, 1.0, kAbsent, kAbsent);
-  if (!view.causes.empty()) {
+  if (view.has_additions()) {
     add("with the missing physics", view.after, view.ratio, view.ratio_lower, view.ratio_upper);
   }
   add("noise floor", view.noise_floor, view.noise_floor / view.before, kAbsent, kAbsent);

@@ -116,7 +116,7 @@ std::string caption_of(const DiagnosisView& view) {
               ? "It stays within the noise; pick another recording to see that it does so "
                 "everywhere."
               : "Yellow marks where they part most, on the loop and along time.";
-  if (!view.causes.empty()) {
+  if (view.has_additions()) {
     text +=
         " Look whether the dashed line, with the missing physics, stays on the measured one "
         "there.";
@@ -156,9 +156,9 @@ std::vector<std::string> pickers_of(const DiagnosisView& view) {
 Figure mismatch_figure(const DiagnosisView& view) {
   Figure figure;
   figure.id = "mismatch";
-  figure.title = view.causes.empty()
-                     ? "Measured, and modelled by the baseline"
-                     : "Measured, and modelled without and with the missing physics";
+  figure.title = view.has_additions()
+                     ? "Measured, and modelled without and with the missing physics"
+                     : "Measured, and modelled by the baseline";
   figure.caption = caption_of(view);
   figure.alt =
       "Torque (force) over torsion (displacement) and over time: measured, baseline, and model "
@@ -179,7 +179,7 @@ Figure remainder_figure(const DiagnosisView& view) {
                                  : "Signature of the mismatch: measured minus modelled";
   figure.caption = "Noise has no shape. Look for one in the solid line, over the " +
                    view.units.motion_name() + " or at certain times";
-  figure.caption += view.causes.empty() ? "." : ", and whether the dashed line has lost it.";
+  figure.caption += view.has_additions() ? ", and whether the dashed line has lost it." : ".";
   figure.alt = "Residual over torsion (displacement) and over time, before and after.";
   figure.derived_from = "mismatch";
   figure.y_label = "measured minus modelled";

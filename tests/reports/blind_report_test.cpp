@@ -155,6 +155,20 @@ TEST(DiagnosisReport, OfAnAdequateBaselineSaysSoAndDrawsOneModel) {
   EXPECT_EQ(figure_of(folder, "mismatch")["frames"][0]["panels"][0]["series"].size(), 2u);
 }
 
+TEST(DiagnosisReport, OfAPartWithoutANameShowsWhatItBrings) {
+  const StudyFolder folder("diagnosis_fixture");
+  change(folder, "diagnosis.json", [](ordered_json& json) {
+    json["verdict"] = "unexplained";
+    json["causes"] = ordered_json::array();
+  });
+  ASSERT_TRUE(write_report(folder.path()));
+  const std::string markup = markup_of(folder.text("index.html"));
+  EXPECT_TRUE(contains(markup, "The model has a part without a name"));
+  EXPECT_TRUE(contains(markup, "with the missing physics"));
+  EXPECT_TRUE(contains(markup, "dashed line"));
+  EXPECT_FALSE(contains(markup, "Nothing was added that could change it."));
+}
+
 TEST(DiagnosisReport, SpellsAlternativesThatWereNotTriedAsWords) {
   const StudyFolder folder("diagnosis_fixture");
   change(folder, "diagnosis.json", [](ordered_json& json) {

@@ -119,6 +119,8 @@ struct DiagnosisView {
   bool has_model = false;                       ///< that simulate and fit take
 
   bool adequate() const { return verdict == "adequate"; }
+  /// Whether the final model has anything beside the baseline, named or not.
+  bool has_additions() const;
   /// "on recordings taken away before the search": of which the misfit before and after is.
   std::string how_held_out() const;
   /// Whether more than one equation of the drive was looked at.
