@@ -11,10 +11,9 @@ namespace flexspline::studies {
 /// themselves: what is named beside a cause is told apart from it.
 std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& selection);
 
-/// The proof of the causes that stand: those that recordings held out confirm, and whose name, or
-/// one of its alternatives, is right with limits.probability at least. The worst is withdrawn, what
-/// is not confirmed before what is improbable, or a rival that holds takes its place, and all is
-/// proved anew; at the end the misfit is located.
+/// The proof of the causes that are named. Of those that recordings held out do not confirm the
+/// worst is withdrawn, or a rival that stands takes its place, and all is proved anew; then
+/// improbable names give way to rivals that stand, or are taken away (take_improbable_names).
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies
