@@ -19,12 +19,15 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kSpacing = 1.06;  // of frequencies tried: the width of a mode of the least damping
-constexpr std::array<double, 2> kDampings = {0.03, 0.2};
-constexpr double kLeastDamping = 0.005, kMostDamping = 0.7;
-constexpr double kRowsPerPeriod = 5.0;
-constexpr int kHalvings = 5;
-constexpr double kAlike = 1e-12;  // one less a squared correlation: rounding
+constexpr std::array<double, 2> kDampings = {0.03, 0.2};  // initial guesses: rings, hardly rings
+// Steps from one guess to the next: of frequency the half-power width of the narrowest.
+constexpr double kOfFrequency = 1.0 + 2.0 * kDampings.front();
+constexpr double kOfDamping = kDampings.back() / kDampings.front();
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kMostDamping = 0.5 * std::numbers::sqrt2;  // with more a mode has no peak
+constexpr double kRowsPerPeriod = 5.0;  // linear between these a sine is 19 % off at most
+constexpr int kHalvings = 5;            // to 0.2 % of a frequency, 6 % of a damping ratio
+constexpr double kAlike = 1e-12;        // one less a squared correlation: rounding
 
 struct Mode {
   double frequency = 0.0;
@@ -81,30 +84,56 @@ ModeFit fitted(const Frame& frame, const ArrayXd& u, const ArrayXd& residual, co
   return {mode, a, b, a * xr + b * yr};
 }
 
-// None where nothing moves or no time passes.
-std::vector<Mode> modes_on(const Frame& frame) {
-  const double turn = 2.0 * std::numbers::pi;
-  const double lowest = std::max(1.0 / frame.longest_lag(), turn / frame.duration);
-  const double highest = turn / (kRowsPerPeriod * frame.interval);
+/// The modes that recordings can tell: with a period in the longest, and five rows a period; that
+/// decay in the longest, and have a peak.
+struct Range {
+  explicit Range(const Frame& frame)
+      : lowest(std::max(1.0 / frame.longest_lag(), kTurn / frame.duration)),
+        highest(kTurn / (kRowsPerPeriod * frame.interval)),
+        least_decay(1.0 / frame.duration) {}
+
+  /// False where nothing moves or no time passes.
+  bool is_known() const { return lowest > 0.0 && std::isfinite(highest); }
+  bool has(const Mode& mode) const {
+    return mode.frequency >= lowest && mode.frequency <= highest &&
+           mode.damping * mode.frequency >= least_decay && mode.damping <= kMostDamping;
+  }
+
+  double lowest, highest;  // rad/s
+  double least_decay;      // 1/s
+};
+
+std::vector<Mode> first_guesses(const Range& range) {
   std::vector<Mode> modes;
-  if (!(lowest > 0.0 && std::isfinite(highest))) return modes;
-  for (double w = lowest; w < highest; w *= kSpacing) {
+  if (!range.is_known()) return modes;
+  for (double w = range.lowest; w < range.highest; w *= kOfFrequency) {
     for (double z : kDampings) modes.push_back({w, z});
   }
   return modes;
 }
 
-// Frequency and damping by turns, in steps that are halved.
-ModeFit refined(ModeFit best, const std::function<ModeFit(const Mode&)>& fit) {
-  double of_frequency = kSpacing, of_damping = 2.0;
+using FitOfMode = std::function<ModeFit(const Mode&)>;
+
+// The best of a mode's neighbours, or none that is better.
+bool moved(ModeFit& best, const Range& range, double of_frequency, double of_damping,
+           const FitOfMode& fit) {
+  const Mode from = best.mode;
+  for (const auto& [w, z] : {Mode{of_frequency, 1.0}, Mode{1.0 / of_frequency, 1.0},
+                             Mode{1.0, of_damping}, Mode{1.0, 1.0 / of_damping}}) {
+    const Mode mode{from.frequency * w, from.damping * z};
+    if (!range.has(mode)) continue;
+    const ModeFit other = fit(mode);
+    if (other.gain > best.gain) best = other;
+  }
+  return best.mode.frequency != from.frequency || best.mode.damping != from.damping;
+}
+
+// Pattern search (Hooke and Jeeves 1961): steps that are halved where none helps.
+ModeFit refined(ModeFit best, const Range& range, const FitOfMode& fit) {
+  double of_frequency = kOfFrequency, of_damping = kOfDamping;
   for (int i = 0; i < kHalvings; ++i) {
     of_frequency = std::sqrt(of_frequency), of_damping = std::sqrt(of_damping);
-    for (const auto& [w, z] : {Mode{of_frequency, 1.0}, Mode{1.0 / of_frequency, 1.0},
-                               Mode{1.0, of_damping}, Mode{1.0, 1.0 / of_damping}}) {
-      const Mode mode{best.mode.frequency * w, best.mode.damping * z};
-      if (mode.damping < kLeastDamping || mode.damping > kMostDamping) continue;
-      ModeFit other = fit(mode);
-      if (other.gain > best.gain) best = std::move(other);
+    while (moved(best, range, of_frequency, of_damping, fit)) {
     }
   }
   return best;
@@ -117,11 +146,12 @@ ModeFit best_mode(const Frame& frame, const ModelFit& model, Equation equation,
   const auto fit = [&](const Mode& mode) {
     return fitted(frame, model.prediction[e], model.residual[e], weight, mode);
   };
-  const auto modes = modes_on(frame);
+  const Range range(frame);
+  const auto modes = first_guesses(range);
   std::vector<ModeFit> fits(modes.size());
   in_parallel(modes.size(), threads_for(threads), [&](std::size_t i) { fits[i] = fit(modes[i]); });
   const auto best = std::ranges::max_element(fits, {}, &ModeFit::gain);
-  return best == fits.end() ? ModeFit{} : refined(*best, fit);
+  return best == fits.end() ? ModeFit{} : refined(*best, range, fit);
 }
 
 ArrayXd part_of(const Frame& frame, const ArrayXd& u, const ModeFit& fit) {
@@ -170,8 +200,8 @@ std::string in_words(const Resonance& r) {
       "most): with a mode that answers its torque the error on recordings held out falls to {:.0f} "
       "% "
       "(95 %: {:.0f} to {:.0f})",
-      name_of(r.equation), r.frequency / (2.0 * std::numbers::pi), r.damping, 100.0 * r.size,
-      100.0 * r.proof.ratio, 100.0 * r.proof.ci95_lower, 100.0 * r.proof.ci95_upper);
+      name_of(r.equation), r.frequency / kTurn, r.damping, 100.0 * r.size, 100.0 * r.proof.ratio,
+      100.0 * r.proof.ci95_lower, 100.0 * r.proof.ci95_upper);
 }
 
 }  // namespace flexspline::studies

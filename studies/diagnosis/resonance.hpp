@@ -23,8 +23,8 @@ struct Resonance {
 /// The resonance that takes most of what is left on recordings held out, over the largest torque of
 /// its equation, where it is proved there (is_proved_part). Frequencies from 1/longest_lag of the
 /// motion, below which a mode follows it, and one period in the longest recording, to five rows a
-/// period; damping ratios 0.005 to 0.7. Rows
-/// are taken as evenly spaced within a recording.
+/// period; damping ratios from 1/(w T), T the longest recording, in which the mode decays, to
+/// 1/sqrt(2), beyond which it has no peak. Rows are taken as evenly spaced within a recording.
 std::optional<Resonance> find_resonance(const Frame& frame, const Findings& final,
                                         const Proof& proof, const Limits& limits);
 

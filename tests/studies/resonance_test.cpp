@@ -81,16 +81,28 @@ class OneResonance : public testing::Test {
   Findings final_;
 };
 
+// To two of the last steps of its search, 0.2 % of a frequency and 6 % of a damping ratio; the peak
+// of a mode that rings goes with the latter. One damping ratio lies between two that are tried
+// first.
 TEST_F(OneResonance, IsFoundWithItsFrequencyAndDamping) {
+  for (double damping : {0.01, kDamping, 0.08, 0.3}) {
+    const ArrayXd ring = 0.1 * (place_of(frame_, torque_, kFrequency, damping) - torque_);
+    const auto one = found(ring + 0.01 * drawn(frame_.rows()));
+    ASSERT_TRUE(one) << damping;
+    EXPECT_EQ(one->equation, Equation::torsion);
+    EXPECT_NEAR(one->frequency, kFrequency, 0.004 * kFrequency) << damping;
+    EXPECT_NEAR(one->damping, damping, 0.12 * damping);
+    EXPECT_NEAR(one->size, ring.abs().maxCoeff() / frame_.torque_range, 0.12 * one->size);
+  }
+}
+
+TEST_F(OneResonance, LeavesNoiseOnRowsHeldOut) {
   const ArrayXd ring = 0.1 * (place_of(frame_, torque_, kFrequency, kDamping) - torque_);
   const auto one = found(ring + drawn(frame_.rows()));
   ASSERT_TRUE(one);
-  EXPECT_EQ(one->equation, Equation::torsion);
-  EXPECT_NEAR(one->frequency, kFrequency, 0.01 * kFrequency);
-  EXPECT_NEAR(one->damping, kDamping, 0.2 * kDamping);
-  EXPECT_NEAR(one->size, ring.abs().maxCoeff() / frame_.torque_range, 0.1 * one->size);
-  EXPECT_NEAR(one->proof.rmse_after, kNoise, 0.05 * kNoise) << "noise is all that is left";
-  EXPECT_THAT(in_words(*one), testing::HasSubstr("6.37 Hz"));
+  const double deviation = 1.0 / std::sqrt(2.0 * held_out(frame_).sum());  // of an rms
+  EXPECT_NEAR(one->proof.rmse_after, kNoise, 3.0 * deviation * kNoise);
+  EXPECT_THAT(in_words(*one), testing::HasSubstr("resonance at"));
 }
 
 TEST_F(OneResonance, IsNotInNoise) { EXPECT_FALSE(found(drawn(frame_.rows()))); }

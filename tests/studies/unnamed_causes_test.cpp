@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "accepted_ids.hpp"
 #include "diagnosis/confirm.hpp"
 #include "drive_frame.hpp"
 
@@ -19,12 +20,6 @@ using testing::SizeIs;
 
 constexpr std::string_view kHidden = "presliding_hysteresis";
 constexpr Eigen::Index kRows = 4000;
-
-std::vector<std::string_view> ids(const std::vector<Accepted>& accepted) {
-  std::vector<std::string_view> list;
-  for (const Accepted& a : accepted) list.push_back(a.trial.cause.row->id);
-  return list;
-}
 
 class UnnamedCauses : public testing::Test {
  protected:
