@@ -12,8 +12,8 @@ namespace flexspline::studies {
 std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& selection);
 
 /// The proof of the causes that are named. Of those that recordings held out do not confirm the
-/// worst is withdrawn, or a rival that stands takes its place, and all is proved anew; then
-/// improbable names give way to rivals that stand, or are taken away (take_improbable_names).
+/// worst is withdrawn, and all is proved anew; then improbable names are taken away
+/// (take_improbable_names).
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

@@ -12,7 +12,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr int kRefreshSteps = 8;
-constexpr int kRefineSteps = 12;
 
 double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
   return chi_square(frame, findings, fit) - chi_square(frame, findings, findings.fit);
@@ -21,18 +20,6 @@ double chi_square_rise(const Frame& frame, const Findings& findings, const Model
 bool stands_for(const Accepted& a, const Accepted& b) {
   return std::ranges::any_of(a.rivals,
                              [&](const Trial& t) { return t.cause.row == b.trial.cause.row; });
-}
-
-// Too small to be named, it would go into the baseline and take the place of the large one there.
-bool usurps(const Accepted& small, const Accepted& large) {
-  return !small.material && (stands_for(small, large) || stands_for(large, small));
-}
-
-std::optional<std::size_t> usurper_of(const Selection& s, std::size_t large) {
-  for (std::size_t k = 0; k < s.accepted.size(); ++k) {
-    if (s.accepted[large].material && usurps(s.accepted[k], s.accepted[large])) return k;
-  }
-  return std::nullopt;
 }
 
 bool share_equation(const Accepted& a, const Accepted& b) {
@@ -83,25 +70,6 @@ Result<Worth> worth_of_each(const Frame& frame, Selection& s, unsigned threads) 
   return worth;
 }
 
-// No model is worse than one that it contains: where it seems so, its fit was caught in a local
-// optimum, and starts again from the smaller one's. The cause moves to the end of the model. True
-// where that helped.
-bool fitted_better(const Frame& frame, const Limits& limits, Selection& s, const Worth& worth) {
-  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    if (!(worth.loss[i] < 0.0)) continue;
-    Findings smaller = s.final;
-    smaller.fit = worth.without[i];
-    auto again = extended(frame, smaller, s.accepted[i].trial.cause, kRefineSteps);
-    if (!again) continue;
-    if (!(chi_square_rise(frame, s.final, *again) < worth.loss[i] - limits.gain)) continue;
-    s.final.fit = std::move(*again);
-    const auto at = s.accepted.begin() + static_cast<long>(i);
-    std::rotate(at, at + 1, s.accepted.end());
-    return true;
-  }
-  return false;
-}
-
 bool leaves_something(const Frame& frame, Findings findings, const ModelFit& fit,
                       const Limits& limits) {
   findings.fit = fit;
@@ -127,24 +95,18 @@ bool stays(const Frame& frame, const Limits& limits, const Selection& s, const W
 // The least first.
 Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
                   const Worth& worth) {
-  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    if (is_no_part(*s.accepted[i].trial.cause.row, s.final.fit.model.coefficients[i])) {
-      return {i, "it is more than a part of the baseline"};
-    }
-  }
   std::vector<std::size_t> order(worth.loss.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return worth.loss[i]; });
   if (!(worth.loss[order.front()] > limits.gain)) {
-    return {usurper_of(s, order.front()).value_or(order.front()), "the others explain it as well"};
+    return {order.front(), "the others explain it as well"};
   }
   const bool complete = !leaves_something(frame, s.final, s.final.fit, limits);
   for (std::size_t i : order) {
     if (s.accepted[i].trial.cause.row->of_baseline()) continue;
     const auto large = shadow_on(frame, s, i, worth.loss, limits);
     if (!large) continue;
-    const bool may_stay = complete && !usurps(s.accepted[i], s.accepted[*large]);
-    if (may_stay && stays(frame, limits, s, worth, i, *large)) continue;
+    if (complete && stays(frame, limits, s, worth, i, *large)) continue;
     return {i, "what it explains is no more than the form of a larger one may miss"};
   }
   return {};
@@ -153,14 +115,9 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
 }  // namespace
 
 Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selection& s) {
-  std::size_t chances = s.accepted.size();
   while (s.accepted.size() > 1) {
     auto worth = worth_of_each(frame, s, limits.threads);
     if (!worth) return tl::unexpected(worth.error());
-    if (chances > 0 && fitted_better(frame, limits, s, *worth)) {
-      --chances;
-      continue;
-    }
     const auto [cause, because] = needless(frame, limits, s, *worth);
     if (!cause) return {};
     s.final.fit = std::move(worth->without[*cause]);

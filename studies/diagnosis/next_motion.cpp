@@ -22,6 +22,9 @@ constexpr Index kSamples = 600;
 constexpr double kCycles = 3.0;
 constexpr double kReach = 1.02;  // of what was recorded
 constexpr double kShares[] = {0.1, 0.25, 0.5, 0.75, 1.0};
+// Models are compared along it, and their equations hold whatever its error is. One that asks for
+// more steps, sixteen a sample, is not proposed.
+constexpr IntegratorSettings kPlanned{1e-4, 1e-4, 16 * kSamples};
 
 double largest(const Frame& f, const ArrayXd& channel) {
   return (channel.abs() * f.usable).maxCoeff();
@@ -156,7 +159,7 @@ std::optional<NextMotion> driven_motion(const Frame& like, const RigModel& rig, 
                                         double frequency) {
   RecordingSet set = driven_set(like, torque, frequency);
   Recording& recording = set.recordings.front();
-  const auto motion = motions_under(rig, recording);
+  const auto motion = motions_under(rig, recording, kPlanned);
   if (!motion) return std::nullopt;
   for (const auto& [quantity, channel] : motion->channels) recording.channels[quantity] = channel;
   const auto made = make_frame(set, kSamples);

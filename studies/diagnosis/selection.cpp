@@ -14,18 +14,7 @@ namespace {
 constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
-  return trial.cause.row != nullptr && trial.net_gain >= limits.gain &&
-         !is_taken_up(trial, limits) &&
-         !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
-}
-
-Accepted accepted_as(Trial trial, const Limits& limits) {
-  Accepted accepted;
-  accepted.first_gain = trial.gain;
-  accepted.material = !trial.cause.row->of_baseline() && trial.size >= limits.interest &&
-                      trial.net_gain >= limits.named_gain;
-  accepted.trial = std::move(trial);
-  return accepted;
+  return trial.cause.row != nullptr && trial.net_gain >= limits.gain;
 }
 
 // The best, or a part of the baseline beside which it gains less than a name has to.
@@ -42,7 +31,12 @@ std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const L
 }
 
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
-  Accepted accepted = accepted_as(std::move(trials[best]), limits);
+  Accepted accepted;
+  accepted.trial = std::move(trials[best]);
+  accepted.first_gain = accepted.trial.gain;
+  accepted.material = !accepted.trial.cause.row->of_baseline() &&
+                      accepted.trial.size >= limits.interest &&
+                      accepted.trial.net_gain >= limits.named_gain;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
     const bool alike =
@@ -89,17 +83,6 @@ Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
   return {};
 }
 
-// Takes a cause out of the model; the others are not fitted again.
-Result<void> take_out(const Frame& frame, Selection& s, std::size_t i, std::string_view because) {
-  auto fit = reduced(frame, s.final, s.immaterial.size() + i, kRefreshSteps);
-  if (!fit) return tl::unexpected(fit.error());
-  s.final.fit = std::move(*fit);
-  s.accepted[i].withdrawn_because = because;
-  s.withdrawn.insert(s.withdrawn.begin(), std::move(s.accepted[i]));
-  s.accepted.erase(s.accepted.begin() + static_cast<long>(i));
-  return {};
-}
-
 Result<void> fit_again(const Frame& frame, Selection& s) {
   if (!s.accepted.empty()) return refresh(frame, s.final, kRefreshSteps);
   s.final = s.baseline;
@@ -116,16 +99,6 @@ Result<void> take_causes(const Frame& frame, const Selection& from, Selection& s
 }
 
 }  // namespace
-
-bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
-  return row.of_baseline() && coefficients.size() > 0 &&
-         coefficients.cwiseAbs().maxCoeff() > row.part->most;
-}
-
-bool is_taken_up(const Trial& trial, const Limits& limits) {
-  return trial.cause.form->transform == nullptr && trial.size >= limits.half &&
-         trial.change < trial.size;
-}
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress,
@@ -167,32 +140,19 @@ Result<void> settle_baseline(const Frame& frame, Selection& s) {
 
 Result<void> leave_out(const Frame& frame, Selection& s, std::size_t cause,
                        std::string_view because) {
-  const auto taken = take_out(frame, s, cause, because);
-  if (!taken) return taken;
-  return fit_again(frame, s);
-}
-
-Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection s,
-                             std::size_t cause, std::string_view because) {
-  auto& rivals = s.accepted[cause].rivals;
-  Accepted rival = accepted_as(std::move(rivals.front()), limits);
-  rivals.erase(rivals.begin());
-  rival.field = s.accepted[cause].field;
-  const auto taken = take_out(frame, s, cause, because);
-  if (!taken) return tl::unexpected(taken.error());
-  auto fit = extended(frame, s.final, rival.trial.cause, kRefreshSteps);
+  auto fit = reduced(frame, s.final, s.immaterial.size() + cause, kRefreshSteps);
   if (!fit) return tl::unexpected(fit.error());
   s.final.fit = std::move(*fit);
-  s.accepted.push_back(std::move(rival));
-  const auto fitted = fit_again(frame, s);
-  if (!fitted) return tl::unexpected(fitted.error());
-  return s;
+  s.accepted[cause].withdrawn_because = because;
+  s.withdrawn.insert(s.withdrawn.begin(), std::move(s.accepted[cause]));
+  s.accepted.erase(s.accepted.begin() + static_cast<long>(cause));
+  return fit_again(frame, s);
 }
 
 void locate_misfit(const Frame& frame, const Limits& limits, Selection& s) {
   s.before = locate(frame, s.baseline);
   s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
-  s.remainder = s.unproved || (!s.after.empty() && is_left(s.after.front(), limits)) ||
+  s.remainder = (!s.after.empty() && is_left(s.after.front(), limits)) ||
                 worst_misfit(frame, s.final) > limits.as_noise();
 }
 

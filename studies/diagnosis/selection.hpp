@@ -57,16 +57,9 @@ struct Selection {
   std::vector<CoordinateScore> before;  ///< coordinates of the baseline's residual: locate_misfit()
   std::vector<CoordinateScore> after;   ///< of the final residual
   bool remainder = false;               ///< something is left beyond noise
-  bool unproved = false;  ///< a cause took much of the misfit, and none on recordings held out
-  std::vector<Accepted> withdrawn;         ///< causes that explain too little to be named
+  std::vector<Accepted> withdrawn;      ///< causes that explain too little to be named
   std::vector<const CauseRow*> redundant;  ///< what the others explain as well, named or not
 };
-
-/// True for a part of the baseline that adds more to its law than such parts do: something else.
-bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
-
-/// True for columns that the baseline counteracts: large, and larger than what is seen of them.
-bool is_taken_up(const Trial& trial, const Limits& limits);
 
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. Where another selection of nearly the same frame is given, it goes on from its
@@ -82,11 +75,6 @@ Result<void> settle_baseline(const Frame& frame, Selection& selection);
 /// Withdraws one of the accepted causes and fits the others again.
 Result<void> leave_out(const Frame& frame, Selection& selection, std::size_t cause,
                        std::string_view because);
-
-/// The selection with the best rival of one of its accepted causes in that one's place, as the last
-/// cause, without rivals of its own; fitted anew.
-Result<Selection> with_rival(const Frame& frame, const Limits& limits, Selection selection,
-                             std::size_t cause, std::string_view because);
 
 /// Where the baseline and the final model miss the recordings, and whether more than noise is left.
 void locate_misfit(const Frame& frame, const Limits& limits, Selection& selection);
