@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,6 +81,7 @@ struct DriveModel;
 
 /// What the baseline has where recordings ask for it, and what is never a name.
 struct BaselinePart {
+  double most = std::numeric_limits<double>::infinity();  ///< larger coefficients are no such part
   /// Of the cause at that place in the model.
   std::string (*says)(const DriveModel&, std::size_t cause) = nullptr;
 };

@@ -95,6 +95,11 @@ bool stays(const Frame& frame, const Limits& limits, const Selection& s, const W
 // The least first.
 Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
                   const Worth& worth) {
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    if (is_no_part(*s.accepted[i].trial.cause.row, s.final.fit.model.coefficients[i])) {
+      return {i, "it is more than a part of the baseline"};
+    }
+  }
   std::vector<std::size_t> order(worth.loss.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return worth.loss[i]; });

@@ -14,7 +14,8 @@ namespace {
 constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
-  return trial.cause.row != nullptr && trial.net_gain >= limits.gain;
+  return trial.cause.row != nullptr && trial.net_gain >= limits.gain &&
+         !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
 }
 
 // The best, or a part of the baseline beside which it gains less than a name has to.
@@ -99,6 +100,11 @@ Result<void> take_causes(const Frame& frame, const Selection& from, Selection& s
 }
 
 }  // namespace
+
+bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
+  return row.of_baseline() && coefficients.size() > 0 &&
+         coefficients.cwiseAbs().maxCoeff() > row.part->most;
+}
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress,

@@ -61,6 +61,9 @@ struct Selection {
   std::vector<const CauseRow*> redundant;  ///< what the others explain as well, named or not
 };
 
+/// True for a part of the baseline that adds more to its law than such parts do: something else.
+bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
+
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. Where another selection of nearly the same frame is given, it goes on from its
 /// causes, and what was redundant there is not tried again. Neither settled nor located:

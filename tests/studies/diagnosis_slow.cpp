@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis_checks.hpp"
+#include "drive_frame.hpp"
 #include "flexspline/data/dataset.hpp"
 #include "source_dir.hpp"
 
@@ -52,6 +53,17 @@ TEST(DiagnoseSlow, NamesAndOrderSayNothingOnTheFreeRig) {
   rename(set);
   std::ranges::rotate(set.recordings, set.recordings.begin() + 3);
   expect_same(plain, Said(diagnosed(set)), 1e-6);
+}
+
+// Its gap closes so abruptly that one motion of the drive would take minutes to simulate; the whole
+// answer takes five seconds.
+TEST(DiagnoseSlow, AStiffGapDoesNotHoldUpWhatToRecordNext) {
+  const Diagnosis d =
+      diagnosed(drawn_case(Rig::free, 5388980950441753, {{"backlash", 0.09802}}).recordings);
+  ASSERT_FALSE(d.causes.empty());
+  EXPECT_EQ(d.causes.front().effect, "backlash");
+  EXPECT_TRUE(d.next_experiment.has_value());
+  EXPECT_LT(d.seconds, 90.0);
 }
 
 // The last bit of every value, as other units change it.
