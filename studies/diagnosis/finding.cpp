@@ -97,7 +97,7 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
   auto selection = beside_incidents(frame, limits, progress, nullptr);
   if (!selection) return tl::unexpected(selection.error());
   auto free_f = confirmed(std::move(frame), limits, progress, std::move(*selection));
-  if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection)) return free_f;
+  if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection, limits)) return free_f;
   auto gap = with_gap(*free_f, limits, progress);
   if (!gap) return tl::unexpected(gap.error());
   if (!*gap || !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof)) return free_f;

@@ -31,8 +31,11 @@ double softness(const Frame& frame, const Selection& s) {
   return f[0] / (kMiddle * f[1]);
 }
 
-bool may_hide_a_gap(const Frame& frame, const Selection& s) {
-  return !names_a_gap(s) && softness(frame, s) < kSoft;
+bool may_hide_a_gap(const Frame& frame, const Selection& s, const Limits& limits) {
+  if (names_a_gap(s)) return false;
+  return softness(frame, s) < kSoft || std::ranges::any_of(s.last_field, [&](const Trial& t) {
+           return t.cause.row != nullptr && t.net_gain >= limits.gain && is_taken_up(t, limits);
+         });
 }
 
 bool has_a_gap(const Selection& s) {

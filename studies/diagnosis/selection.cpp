@@ -15,6 +15,7 @@ constexpr int kRefreshSteps = 8;
 
 bool admissible(const Trial& trial, const Limits& limits) {
   return trial.cause.row != nullptr && trial.net_gain >= limits.gain &&
+         !is_taken_up(trial, limits) &&
          !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
 }
 
@@ -104,6 +105,11 @@ Result<void> take_causes(const Frame& frame, const Selection& from, Selection& s
 bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
   return row.of_baseline() && coefficients.size() > 0 &&
          coefficients.cwiseAbs().maxCoeff() > row.part->most;
+}
+
+bool is_taken_up(const Trial& trial, const Limits& limits) {
+  return trial.cause.form->transform == nullptr && trial.size >= limits.half &&
+         trial.change < trial.size;
 }
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,

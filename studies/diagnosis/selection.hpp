@@ -64,6 +64,9 @@ struct Selection {
 /// True for a part of the baseline that adds more to its law than such parts do: something else.
 bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 
+/// True for columns that the baseline counteracts: large, and larger than what is seen of them.
+bool is_taken_up(const Trial& trial, const Limits& limits);
+
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. Where another selection of nearly the same frame is given, it goes on from its
 /// causes, and what was redundant there is not tried again. Neither settled nor located:

@@ -64,6 +64,7 @@ std::string outcome_of(const Accepted& a) {
 std::string outcome_of(const Trial& t, bool rival, const Limits& limits) {
   if (rival) return "explains the same signal nearly as well: an alternative";
   if (t.net_gain < limits.gain) return "gains no more than noise would";
+  if (is_taken_up(t, limits)) return "absorbed by the baseline";
   return "gains less than the accepted one";
 }
 

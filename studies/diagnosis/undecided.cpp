@@ -57,7 +57,7 @@ std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accep
                                        const Limits& limits) {
   const Trial& trial = accepted.trial;
   const CauseForm& form = *trial.cause.form;
-  const double size = std::min(trial.size, trial.change);
+  const double size = form.transform != nullptr ? std::min(trial.size, trial.change) : trial.size;
   if (may_be_large(frame, form) || size < limits.half) return std::nullopt;
   return finding(*trial.cause.row, fmt::format("of {:.0f} % of the largest torque", 100.0 * size));
 }

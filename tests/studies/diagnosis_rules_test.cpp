@@ -18,12 +18,27 @@ const CauseRow& row_of(std::string_view id) {
   return *std::ranges::find(causes(), id, &CauseRow::id);
 }
 
-Trial trial_of(double size) {
+/// A form that acts on the torsion equation, by columns or by a change of the motion.
+Trial trial_of(double size, double change, bool transform) {
   static const CauseForm columns{.equation = "columns", .rigs = {}, .at = {Equation::torsion}};
+  static const CauseForm moved{.equation = "moved",
+                               .rigs = {},
+                               .at = {Equation::torsion},
+                               .transform = [](Frame&, std::span<const double>) {}};
   Trial trial;
-  trial.cause = {&row_of("presliding_hysteresis"), &columns, {}};
+  trial.cause = {&row_of("presliding_hysteresis"), transform ? &moved : &columns, {}};
   trial.size = size;
+  trial.change = change;
   return trial;
+}
+
+TEST(TakenUp, IsWhatIsLargeAndMovesThePredictionByLess) {
+  const Limits limits;
+  const double large = 1.2 * limits.half;
+  EXPECT_TRUE(is_taken_up(trial_of(large, 0.5 * large, false), limits));
+  EXPECT_FALSE(is_taken_up(trial_of(large, 1.1 * large, false), limits)) << "it is seen in full";
+  EXPECT_FALSE(is_taken_up(trial_of(0.9 * limits.half, 0.0, false), limits)) << "small";
+  EXPECT_FALSE(is_taken_up(trial_of(large, 0.0, true), limits)) << "no column";
 }
 
 Frame three_recordings() {
@@ -128,7 +143,7 @@ TEST(Explanation, WhatIsTooSmallForANameIsSomethingLeftAllTheSame) {
   const auto left = [&](double gain, double removed, bool beside_a_cause = false) {
     Selection s;
     Accepted small;
-    small.trial = trial_of(size);
+    small.trial = trial_of(size, size, false);
     small.trial.net_gain = gain;
     small.trial.removed = removed;
     s.immaterial = {small};

@@ -78,10 +78,32 @@ TEST(GapInSpring, MakesItSoftInItsMiddle) {
   MountedGear gear;
   gear.friction = 0.0;
   EXPECT_NEAR(softness(*frame_of(gear), with_free_f(gear)), 1.0, 0.01);
-  EXPECT_FALSE(may_hide_a_gap(*frame_of(gear), with_free_f(gear)));
+  EXPECT_FALSE(may_hide_a_gap(*frame_of(gear), with_free_f(gear), {}));
   gear.half_gap = 4e-3;
   EXPECT_LT(softness(*frame_of(gear), with_free_f(gear)), 0.1);
-  EXPECT_TRUE(may_hide_a_gap(*frame_of(gear), with_free_f(gear)));
+  EXPECT_TRUE(may_hide_a_gap(*frame_of(gear), with_free_f(gear), {}));
+}
+
+// A column that is large and hardly seen: f counteracts it.
+TEST(GapInSpring, MayHideBehindWhatAFreeFCounteracts) {
+  MountedGear gear;
+  gear.friction = 0.0;
+  const Frame frame = *frame_of(gear);
+  const Limits limits;
+  const auto row = std::ranges::find(causes(), std::string_view("soft_windup"), &CauseRow::id);
+  Trial windup;
+  windup.cause = {&*row, &row->forms.front(), {}};
+  windup.net_gain = 2.0 * limits.gain;
+  windup.size = 1.2 * limits.half;
+  windup.change = 0.1 * windup.size;
+  Selection s = with_free_f(gear);
+  s.last_field = {windup};
+  EXPECT_TRUE(may_hide_a_gap(frame, s, limits));
+  s.last_field.front().change = windup.size;
+  EXPECT_FALSE(may_hide_a_gap(frame, s, limits)) << "it is seen in full";
+  s.last_field.front() = windup;
+  s.last_field.front().net_gain = 0.5 * limits.gain;
+  EXPECT_FALSE(may_hide_a_gap(frame, s, limits)) << "it gains as noise does";
 }
 
 // What is left of a spring with a gap when none of its slopes may be below 0.6 of the mean one.
