@@ -1,7 +1,6 @@
 #include "diagnosis/confirm.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "diagnosis/cancelling.hpp"

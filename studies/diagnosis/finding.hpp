@@ -11,8 +11,8 @@ struct Finding {
   Proof proof;
 };
 
-/// Causes beside a baseline with a free f, proved on recordings held out; where that is so soft in
-/// its middle that it may hide a gap, beside a firm spring too, which stands where it tells one.
+/// Causes beside a baseline with a free f, proved on recordings held out; where that may hide a gap
+/// (may_hide_a_gap), beside a firm spring too, which stands where it tells one.
 /// Errors: those of the fits.
 Result<Finding> find_causes(Frame frame, const Limits& limits,
                             const std::function<void(double, std::string_view)>& progress);

@@ -16,6 +16,16 @@ bool names_a_gap(const Selection& s) {
   return std::ranges::any_of(s.accepted, [](const Accepted& a) { return is_a_gap(a.trial); });
 }
 
+// Whose elastic torque is f of the torsion.
+bool has_spring(const Frame& frame) { return frame.has(Equation::torsion) && !frame.travels; }
+
+// A column of the torsion equation that f counteracts, and that gains all the same.
+bool is_half_hidden(const Trial& trial, const Limits& limits) {
+  return trial.cause.row != nullptr && trial.net_gain >= limits.gain &&
+         is_taken_up(trial, limits) &&
+         std::ranges::count(trial.cause.form->at, Equation::torsion) > 0;
+}
+
 }  // namespace
 
 Frame with_firm_spring(Frame frame) {
@@ -24,7 +34,7 @@ Frame with_firm_spring(Frame frame) {
 }
 
 double softness(const Frame& frame, const Selection& s) {
-  if (!frame.has(Equation::torsion) || frame.travels) return kNotComputed;
+  if (!has_spring(frame)) return kNotComputed;
   const Eigen::VectorXd& own = s.final.fit.model.own[index_of(Equation::torsion)];
   const Eigen::Array2d torsion = frame.torsion_range * Eigen::Array2d(kMiddle, 1.0);
   const Eigen::ArrayXd f = elastic_torque(frame, own, torsion);
@@ -32,9 +42,9 @@ double softness(const Frame& frame, const Selection& s) {
 }
 
 bool may_hide_a_gap(const Frame& frame, const Selection& s, const Limits& limits) {
-  if (names_a_gap(s)) return false;
-  return softness(frame, s) < kSoft || std::ranges::any_of(s.last_field, [&](const Trial& t) {
-           return t.cause.row != nullptr && t.net_gain >= limits.gain && is_taken_up(t, limits);
+  if (names_a_gap(s) || !has_spring(frame)) return false;
+  return softness(frame, s) < kSoft || std::ranges::any_of(s.last_field, [&](const Trial& trial) {
+           return is_half_hidden(trial, limits);
          });
 }
 

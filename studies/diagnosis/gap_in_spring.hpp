@@ -12,8 +12,9 @@ Frame with_firm_spring(Frame frame);
 /// torsion equation, or where the angle travels.
 double softness(const Frame& frame, const Selection& selection);
 
-/// True where no gap is named and f is softer in its middle than springs of gears are, or where a
-/// column that f counteracts gains all the same: f half hides something, and a firm one would not.
+/// True where there is an f of the torsion, no gap is named, and f is softer in its middle than
+/// springs of gears are, or a column of its equation that it counteracts gains all the same: f half
+/// hides something, and a firm one would not (docs/decisions/0039).
 bool may_hide_a_gap(const Frame& frame, const Selection& selection, const Limits& limits);
 
 /// True where a gap is among the causes or what may take their place.

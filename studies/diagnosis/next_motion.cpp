@@ -22,8 +22,8 @@ constexpr Index kSamples = 600;
 constexpr double kCycles = 3.0;
 constexpr double kReach = 1.02;  // of what was recorded
 constexpr double kShares[] = {0.1, 0.25, 0.5, 0.75, 1.0};
-// Models are compared along it, and their equations hold whatever its error is. One that asks for
-// more steps, sixteen a sample, is not proposed.
+// Two models are compared along one motion, so that its own error has no say. What asks for more
+// steps than these, sixteen a sample, is not proposed: a stiff gap had taken minutes a motion.
 constexpr IntegratorSettings kPlanned{1e-4, 1e-4, 16 * kSamples};
 
 double largest(const Frame& f, const ArrayXd& channel) {

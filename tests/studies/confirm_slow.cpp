@@ -4,25 +4,16 @@
 
 #include "accepted_ids.hpp"
 #include "diagnosis/confirm.hpp"
-#include "drive_frame.hpp"
+#include "searched_drive.hpp"
 
 namespace flexspline::studies {
 namespace {
 
 constexpr std::string_view kHidden = "presliding_hysteresis";
+constexpr Eigen::Index kRows = 16000;
 
-class Confirm : public testing::Test {
+class Confirm : public SearchedDrive {
  protected:
-  void search(const std::vector<data::HiddenEffect>& hidden) {
-    auto made = make_frame(drawn_case(Rig::locked, 201, hidden).recordings, 16000);
-    ASSERT_TRUE(made) << made.error().message();
-    frame_ = std::move(*made);
-    auto selection = select_causes(frame_, limits_, {});
-    ASSERT_TRUE(selection) << selection.error().message();
-    s_ = std::move(*selection);
-    ASSERT_TRUE(settle_baseline(frame_, s_));
-  }
-
   // As if the search had taken what is not there.
   void accept_the_best() {
     auto trials = try_causes(frame_, s_.baseline);
@@ -32,14 +23,10 @@ class Confirm : public testing::Test {
     s_.accepted = {std::move(best)};
     ASSERT_TRUE(fit_all(frame_, s_.final, 0));
   }
-
-  Frame frame_;
-  Limits limits_;
-  Selection s_;
 };
 
 TEST_F(Confirm, KeepsWhatHoldsOnRecordingsHeldOut) {
-  search({{std::string(kHidden), 0.06}});
+  search({{std::string(kHidden), 0.06}}, kRows);
   const auto proof = confirm(frame_, limits_, s_);
   ASSERT_TRUE(proof) << proof.error().message();
   EXPECT_THAT(ids(s_.accepted), testing::ElementsAre(kHidden));
@@ -48,7 +35,7 @@ TEST_F(Confirm, KeepsWhatHoldsOnRecordingsHeldOut) {
 }
 
 TEST_F(Confirm, WithdrawsWhatDoesNot) {
-  search({});
+  search({}, kRows);
   ASSERT_TRUE(s_.accepted.empty());
   accept_the_best();
   const auto proof = confirm(frame_, limits_, s_);

@@ -104,6 +104,13 @@ TEST(GapInSpring, MayHideBehindWhatAFreeFCounteracts) {
   s.last_field.front() = windup;
   s.last_field.front().net_gain = 0.5 * limits.gain;
   EXPECT_FALSE(may_hide_a_gap(frame, s, limits)) << "it gains as noise does";
+  s.last_field.front() = windup;
+  Frame without = frame;
+  without.travels = true;
+  EXPECT_FALSE(may_hide_a_gap(without, s, limits)) << "an angle that travels winds up nothing";
+  const CauseForm at_motor{.equation = "of the motor", .rigs = {}, .at = {Equation::motor}};
+  s.last_field.front().cause.form = &at_motor;
+  EXPECT_FALSE(may_hide_a_gap(frame, s, limits)) << "f has no part in the motor's equation";
 }
 
 // What is left of a spring with a gap when none of its slopes may be below 0.6 of the mean one.

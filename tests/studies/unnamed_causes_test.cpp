@@ -9,7 +9,7 @@
 
 #include "accepted_ids.hpp"
 #include "diagnosis/confirm.hpp"
-#include "drive_frame.hpp"
+#include "searched_drive.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -21,17 +21,10 @@ using testing::SizeIs;
 constexpr std::string_view kHidden = "presliding_hysteresis";
 constexpr Eigen::Index kRows = 4000;
 
-class UnnamedCauses : public testing::Test {
+class UnnamedCauses : public SearchedDrive {
  protected:
   void SetUp() override {
-    const auto hidden = drawn_case(Rig::locked, 201, {{std::string(kHidden), 0.06}});
-    auto made = make_frame(hidden.recordings, kRows);
-    ASSERT_TRUE(made) << made.error().message();
-    frame_ = std::move(*made);
-    auto selection = select_causes(frame_, limits_, {});
-    ASSERT_TRUE(selection) << selection.error().message();
-    s_ = std::move(*selection);
-    ASSERT_TRUE(settle_baseline(frame_, s_));
+    search({{std::string(kHidden), 0.06}}, kRows);
     ASSERT_THAT(ids(s_.accepted), ElementsAre(kHidden));
   }
 
@@ -75,9 +68,6 @@ class UnnamedCauses : public testing::Test {
     return name;
   }
 
-  Frame frame_;
-  Limits limits_;
-  Selection s_;
   HoldoutProof before_;
 };
 
