@@ -5,7 +5,6 @@
 
 #include "diagnosis/cancelling.hpp"
 #include "diagnosis/unnamed.hpp"
-#include "diagnosis/unnamed_causes.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -14,7 +13,7 @@ constexpr std::size_t kMostAlternatives = 2;
 constexpr int kFinalSteps = 12;
 
 // What is read from the final model beside a cause's proof.
-void complete(const Frame& frame, const Selection& s, Proof& proof) {
+void complete(const Frame& frame, Selection& s, Proof& proof) {
   if (s.accepted.empty()) return;
   const auto evidence = left_to_tables(frame, s.final);
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
@@ -25,6 +24,7 @@ void complete(const Frame& frame, const Selection& s, Proof& proof) {
     NameEvidence& name = proof.causes[i].name;
     name.left_over = most / (0.5 * s.accepted[i].trial.gain);
     name.alternatives = alternatives_of(s.accepted[i], s).size();
+    s.accepted[i].probability = probability_of(proof.causes[i]);
   }
 }
 
@@ -91,7 +91,7 @@ Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
     complete(frame, s, *proof);
     const auto fitted = fit_all(frame, s.final, kFinalSteps, kJudgedFall);
     if (!fitted) return tl::unexpected(fitted.error());
-    return take_improbable_names(frame, limits, s, std::move(*proof));
+    return proof;
   }
 }
 

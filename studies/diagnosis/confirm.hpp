@@ -11,9 +11,8 @@ namespace flexspline::studies {
 /// themselves: what is named beside a cause is told apart from it.
 std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& selection);
 
-/// The proof of the causes that are named. Of those that recordings held out do not confirm the
-/// worst is withdrawn, and all is proved anew; then improbable names are taken away
-/// (take_improbable_names).
+/// The proof of the causes that stay, with the evidence of their names. Of those that recordings
+/// held out do not confirm the worst is withdrawn, and all is proved anew.
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

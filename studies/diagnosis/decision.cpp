@@ -87,8 +87,11 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   const bool nests = settings.nested && settings.holdout.empty() && !one_loop(*frame);
   auto searches = search_all(all, *frame, nests, limits, kMostRows, part_of(progress, 0.0, 0.9));
   if (!searches.finding) return tl::unexpected(searches.finding.error());
+  judge_by_folds(*frame, searches.folds, *searches.finding);
+  auto named = with_probable_names(std::move(*searches.finding), limits);
+  if (!named) return tl::unexpected(named.error());
   Decision d;
-  d.finding = std::move(*searches.finding);
+  d.finding = std::move(*named);
   d.proof = d.finding.proof.holdout;
   d.ripple = find_ripple(d.finding.frame, d.finding.selection, d.proof, limits);
   d.resonance = find_resonance(d.finding.frame, d.finding.selection.final, d.finding.proof, limits);

@@ -132,6 +132,7 @@ Result<Diagnosis> diagnosed(const RecordingSet& all, const DiagnosisProgress& pr
   d.mistaken.insert(d.mistaken.end(), std::make_move_iterator(mistaken.begin()),
                     std::make_move_iterator(mistaken.end()));
   d.quick = !settings.nested;
+  d.interest = settings.interest;
   return d;
 }
 

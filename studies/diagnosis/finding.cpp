@@ -7,6 +7,7 @@
 #include "diagnosis/confirm.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/incident.hpp"
+#include "diagnosis/unnamed_causes.hpp"
 #include "diagnosis/zeros.hpp"
 
 namespace flexspline::studies {
@@ -100,9 +101,19 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
   if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection, limits)) return free_f;
   auto gap = with_gap(*free_f, limits, progress);
   if (!gap) return tl::unexpected(gap.error());
-  if (!*gap || !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof)) return free_f;
+  if (!*gap || !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof, limits)) {
+    return free_f;
+  }
   (*gap)->frame.notes.push_back(gap_in_words(*free_f, **gap));
   return std::move(**gap);
+}
+
+Result<Finding> with_probable_names(Finding finding, const Limits& limits) {
+  auto proof = take_improbable_names(finding.frame, limits, finding.selection,
+                                     std::move(finding.proof));
+  if (!proof) return tl::unexpected(proof.error());
+  finding.proof = std::move(*proof);
+  return finding;
 }
 
 }  // namespace flexspline::studies

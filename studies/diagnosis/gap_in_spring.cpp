@@ -12,8 +12,11 @@ constexpr double kSoft = 0.25;  // softer than any spring of a gear that a catal
 
 bool is_a_gap(const Trial& trial) { return trial.cause.row->id == "backlash"; }
 
-bool names_a_gap(const Selection& s) {
-  return std::ranges::any_of(s.accepted, [](const Accepted& a) { return is_a_gap(a.trial); });
+// A gap whose name is not improbable.
+bool names_a_gap(const Selection& s, const Limits& limits) {
+  return std::ranges::any_of(s.accepted, [&](const Accepted& a) {
+    return is_a_gap(a.trial) && !(a.probability < limits.probability);
+  });
 }
 
 // Whose elastic torque is f of the torsion.
@@ -42,21 +45,22 @@ double softness(const Frame& frame, const Selection& s) {
 }
 
 bool may_hide_a_gap(const Frame& frame, const Selection& s, const Limits& limits) {
-  if (names_a_gap(s) || !has_spring(frame)) return false;
+  if (names_a_gap(s, limits) || !has_spring(frame)) return false;
   return softness(frame, s) < kSoft || std::ranges::any_of(s.last_field, [&](const Trial& trial) {
            return is_half_hidden(trial, limits);
          });
 }
 
 bool has_a_gap(const Selection& s) {
-  return names_a_gap(s) || std::ranges::any_of(s.accepted, [](const Accepted& a) {
-           return std::ranges::any_of(a.rivals, is_a_gap);
-         });
+  return std::ranges::any_of(s.accepted, [](const Accepted& a) {
+    return is_a_gap(a.trial) || std::ranges::any_of(a.rivals, is_a_gap);
+  });
 }
 
-bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap) {
+bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap,
+                 const Limits& limits) {
   const HoldoutProof& free = with_free_f.holdout;
-  return names_a_gap(firm) && with_gap.holdout.rmse_after <= free.ci95_upper * free.rmse_before;
+  return names_a_gap(firm, limits) && with_gap.holdout.rmse_after <= free.ci95_upper * free.rmse_before;
 }
 
 }  // namespace flexspline::studies

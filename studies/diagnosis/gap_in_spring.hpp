@@ -23,6 +23,7 @@ bool has_a_gap(const Selection& selection);
 /// True where the model with a firm spring names a gap and predicts recordings held out as well as
 /// that with the free one does, for all that they can tell: its error lies within the interval of
 /// 95 % of the other's. Of two such models the one stands whose spring is one.
-bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap);
+bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap,
+                 const Limits& limits);
 
 }  // namespace flexspline::studies

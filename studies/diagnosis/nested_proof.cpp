@@ -58,12 +58,40 @@ Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
                                     const DiagnosisProgress& progress) {
   auto frame = make_frame(without_rows(all, whole, fold), most_rows);
   if (!frame) return tl::unexpected(frame.error());
-  const auto finding = find_causes(std::move(*frame), limits, progress);
+  const auto finding =
+      find_causes(std::move(*frame), limits, progress).and_then([&](Finding&& found) {
+        return with_probable_names(std::move(found), limits);
+      });
   if (!finding) return tl::unexpected(finding.error());
   auto judged = judge(whole, fold, *finding);
   if (!judged) return tl::unexpected(judged.error());
   return SearchedFold{std::move(judged->held), std::move(judged->before.residual),
                       std::move(judged->after.residual), named_by(*finding)};
+}
+
+/// Rows of all folds, and their residuals.
+struct Pooled {
+  ArrayXd held;
+  PerEquation before, after;
+};
+
+bool has(const SearchedFold& fold, Equation equation) {
+  return fold.after[index_of(equation)].size() > 0;
+}
+
+Pooled pooled(const Frame& whole, const std::vector<Result<SearchedFold>>& folds) {
+  const ArrayXd zero = ArrayXd::Zero(whole.rows());
+  Pooled pool{zero, {zero, zero, zero}, {zero, zero, zero}};
+  for (const auto& fold : folds) {
+    pool.held += fold->held;
+    for (Equation equation : whole.equations) {
+      if (!has(*fold, equation)) continue;
+      const std::size_t e = index_of(equation);
+      pool.before[e] += fold->before[e] * fold->held;
+      pool.after[e] += fold->after[e] * fold->held;
+    }
+  }
+  return pool;
 }
 
 }  // namespace
@@ -86,23 +114,37 @@ Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, co
   return searches;
 }
 
+void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                    Finding& finding) {
+  const auto& [frame, selection, proof] = finding;
+  if (folds.empty() || !std::ranges::all_of(folds, &Result<SearchedFold>::has_value)) return;
+  const Pooled pool = pooled(whole, folds);
+  const ArrayXd held = pool.held * frame.usable;
+  for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
+    const CauseForm& form = *selection.accepted[i].trial.cause.form;
+    const bool judged = std::ranges::all_of(form.at, [&](Equation at) {
+      return !frame.has(at) ||
+             std::ranges::all_of(folds, [&](const auto& fold) { return has(*fold, at); });
+    });
+    if (!judged) continue;
+    take_errors(frame, selection.final, form, pool.before, pool.after, held,
+                finding.proof.causes[i].name);
+  }
+}
+
 Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
                                  Equation equation) {
   const std::size_t e = index_of(equation);
   NestedProof nested;
-  ArrayXd held = ArrayXd::Zero(whole.rows());
-  ArrayXd before = held, after = held;
   for (const auto& fold : folds) {
     if (!fold) return tl::unexpected(fold.error());
-    if (fold->after[e].size() == 0) {
+    if (!has(*fold, equation)) {
       return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
     }
     nested.named.push_back(fold->named);
-    held += fold->held;
-    before += fold->before[e] * fold->held;
-    after += fold->after[e] * fold->held;
   }
-  nested.proof = proof_on(whole, held, equation, before, after);
+  const Pooled pool = pooled(whole, folds);
+  nested.proof = proof_on(whole, pool.held, equation, pool.before[e], pool.after[e]);
   nested.proof.folds = static_cast<int>(folds.size());
   return nested;
 }

@@ -25,6 +25,12 @@ struct Searches {
 Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, const Limits& limits,
                     Eigen::Index most_rows, const DiagnosisProgress& progress);
 
+/// Takes the errors of the whole search on rows that it did not have as evidence of names
+/// (NameEvidence), in place of those of causes that were chosen with these rows in view. Where a
+/// fold lacks one of a cause's equations its evidence stays; where a fold failed all does.
+void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                    Finding& finding);
+
 /// What the folds prove together.
 struct NestedProof {
   HoldoutProof proof;

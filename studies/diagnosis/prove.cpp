@@ -161,15 +161,13 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
     const auto of = [&](const PerEquation& residual) {
       return misfit_of(frame, s.final, form, residual, held);
     };
-    const HeldOutMisfit with = of(pool.final), without = of(pool.without[i]);
-    const HeldOutMisfit base = of(pool.base);
-    const double instead = of(pool.placebo).chi_square;
-    proof.causes.push_back(
-        {.name = {.ratio = std::sqrt(with.chi_square / without.chi_square),
-                  .over_noise = std::sqrt(with.chi_square / with.noise),
-                  .before_over_noise = std::sqrt(base.chi_square / base.noise)},
-         .placebo_ratio = instead > 0.0 ? std::sqrt(instead / base.chi_square) : kNotComputed,
-         .gain = without.chi_square - with.chi_square});
+    const double with = of(pool.final).chi_square, without = of(pool.without[i]).chi_square;
+    const double base = of(pool.base).chi_square, instead = of(pool.placebo).chi_square;
+    CauseProof cause{.name = {.ratio = std::sqrt(with / without)},
+                     .placebo_ratio = instead > 0.0 ? std::sqrt(instead / base) : kNotComputed,
+                     .gain = without - with};
+    take_errors(frame, s.final, form, pool.base, pool.final, held, cause.name);
+    proof.causes.push_back(cause);
   }
 }
 
@@ -192,6 +190,22 @@ Equation equation_to_prove(const Frame& frame, const Selection& selection) {
     }
   }
   return first.value_or(frame.equations.front());
+}
+
+double probability_of(const CauseProof& cause) {
+  NameEvidence either = cause.name;
+  either.alternatives = 0;
+  const double probability = probability_right(either);
+  return std::isnan(probability) ? 0.0 : probability;
+}
+
+void take_errors(const Frame& frame, const Findings& findings, const CauseForm& form,
+                 const PerEquation& before, const PerEquation& after, const ArrayXd& held,
+                 NameEvidence& evidence) {
+  const HeldOutMisfit base = misfit_of(frame, findings, form, before, held);
+  const HeldOutMisfit whole = misfit_of(frame, findings, form, after, held);
+  evidence.before_over_noise = std::sqrt(base.chi_square / base.noise);
+  evidence.over_noise = std::sqrt(whole.chi_square / whole.noise);
 }
 
 bool is_confirmed(const CauseProof& cause, const Limits& limits) {

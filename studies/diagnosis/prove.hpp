@@ -34,6 +34,15 @@ struct Proof {
   std::vector<ModelFit> by_fold;  ///< the final model, by fold of folds_of, fitted without its rows
 };
 
+/// That the name of a cause or one of its alternatives is right; 0 of one that could not be judged.
+double probability_of(const CauseProof& cause);
+
+/// Takes as evidence of a cause's name, in the equations that it acts on, what residuals of the
+/// baseline and of the whole model say on the rows marked 1.
+void take_errors(const Frame& frame, const Findings& findings, const CauseForm& form,
+                 const PerEquation& before, const PerEquation& after, const Eigen::ArrayXd& held,
+                 NameEvidence& evidence);
+
 /// True where recordings held out say that a cause is there.
 bool is_confirmed(const CauseProof& cause, const Limits& limits);
 

@@ -74,19 +74,15 @@ std::string rest_in_words(const Selection& s, const Limits& limits, const Holdou
 
 std::string spelled_verdict(const Selection& s, const Limits& limits,
                             const std::optional<Resonance>& resonance, const Diagnosis& d) {
-  const std::string named = names_in_words(d.causes);
+  if (d.verdict == Verdict::adequate) {
+    return "Nothing is missing: the baseline explains the recordings to within their noise.";
+  }
   const std::string proof = proof_in_words(d.holdout, parts_in_words(d.causes.size(), s.unnamed));
-  switch (d.verdict) {
-    case Verdict::adequate:
-      return "Nothing is missing: the baseline explains the recordings to within their noise.";
-    case Verdict::explained:
-      return fmt::format("Missing: {}. {}.", named, proof);
-    case Verdict::partly_explained:
-      return fmt::format("Missing: {}. {}{}.", named, proof,
-                         rest_in_words(s, limits, d.holdout, resonance));
-    case Verdict::unexplained:
-    case Verdict::undecided:
-      break;
+  if (!d.causes.empty()) {
+    const std::string rest = d.verdict == Verdict::partly_explained
+                                 ? rest_in_words(s, limits, d.holdout, resonance)
+                                 : "";
+    return fmt::format("Missing: {}. {}{}.", names_in_words(d.causes), proof, rest);
   }
   if (!s.unnamed.empty())
     return fmt::format("Physics is missing, its name is uncertain. {}.", proof);

@@ -1,7 +1,6 @@
 #include "diagnosis/unnamed_causes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/undecided.hpp"
@@ -55,13 +54,6 @@ void take_misfit(Selection& s, Selection named) {
 }
 
 }  // namespace
-
-double probability_of(const CauseProof& cause) {
-  NameEvidence either = cause.name;
-  either.alternatives = 0;
-  const double probability = probability_right(either);
-  return std::isnan(probability) ? 0.0 : probability;
-}
 
 Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Selection& s,
                                     Proof proof) {

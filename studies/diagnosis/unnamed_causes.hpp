@@ -4,9 +4,6 @@
 
 namespace flexspline::studies {
 
-/// That the name of a cause or one of its alternatives is right; 0 of one that could not be judged.
-double probability_of(const CauseProof& cause);
-
 /// Takes the names of causes that recordings held out confirm and whose name is less likely than
 /// limits.probability: a doubted name is no reason to predict worse. Where the named causes alone
 /// leave no more than noise, or an unnamed one would be implausible, these are withdrawn; else they

@@ -247,6 +247,7 @@ Json to_json(const Diagnosis& diagnosis) {
   }
   if (diagnosis.unnamed) json["unnamed"] = unnamed_json(diagnosis, *diagnosis.unnamed);
   json["quick"] = diagnosis.quick;
+  json["interest"] = number(diagnosis.interest);
   json["units"] = units_json(diagnosis);
   json["tried"] = list_of(diagnosis.tried, tried_json);
   json["moved"] =

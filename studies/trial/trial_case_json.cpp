@@ -14,6 +14,7 @@ ordered_json cause_json(const Cause& cause) {
   return {{"effect", cause.effect},
           {"probability", cause.probability},
           {"size_fraction", cause.size_fraction},
+          {"stability", cause.stability},
           {"alternatives", cause.alternatives},
           {"score_p_value", cause.evidence.score_p_value},
           {"holdout_rmse_ratio", cause.evidence.holdout_rmse_ratio},

@@ -153,10 +153,10 @@ TEST(GapInSpring, IsToldWhereAFirmSpringAndAGapPredictAsWell) {
   free_f.holdout.ci95_upper = 0.3;
   Proof firm;
   firm.holdout.rmse_after = 1.19;
-  EXPECT_TRUE(tells_a_gap(named, free_f, firm));
-  EXPECT_FALSE(tells_a_gap(Selection{}, free_f, firm)) << "no gap is named";
+  EXPECT_TRUE(tells_a_gap(named, free_f, firm, {}));
+  EXPECT_FALSE(tells_a_gap(Selection{}, free_f, firm, {})) << "no gap is named";
   firm.holdout.rmse_after = 1.21;
-  EXPECT_FALSE(tells_a_gap(named, free_f, firm)) << "it predicts worse";
+  EXPECT_FALSE(tells_a_gap(named, free_f, firm, {})) << "it predicts worse";
 }
 
 TEST(GapInSpring, MayStandBehindACause) {

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "program_fixture.hpp"
 
 namespace flexspline::studies {
@@ -73,6 +75,23 @@ TEST_F(VerifyCommand, ComparesTheDataBeforeItComputes) {
   EXPECT_THAT(ended.result, HasSubstr("datasets/recordings/sha256"));
   EXPECT_THAT(ended.result, Not(HasSubstr("are the same")));
   EXPECT_FALSE(fs::exists(path("diag/verification/again/diagnosis.json"))) << "nothing computed";
+}
+
+// Asked for in another way it would be another answer.
+TEST_F(VerifyCommand, AsksForADiagnosisAsItWasAskedFor) {
+  ASSERT_EQ(run_program({"conceal", path("bench.toml"), "--out", path("one")}).code, 0);
+  ASSERT_EQ(run_program({"diagnose", path("one/dataset"), "--out", path("all"), "--quick"}).code,
+            0);
+  ASSERT_EQ(run_program({"diagnose", path("one/dataset"), "--out", path("large"), "--quick",
+                         "--interest", "40%"})
+                .code,
+            0);
+  const auto causes = [&](const char* file) {
+    return nlohmann::json::parse(read_text(path(file))).at("causes").size();
+  };
+  ASSERT_GT(causes("all/diagnosis.json"), causes("large/diagnosis.json"));
+  const Ended ended = run_program({"verify", path("large"), "--dataset", path("one/dataset")});
+  EXPECT_EQ(ended.code, 0) << ended.result << ended.said;
 }
 
 // A data set that was edited since the study ran is another one.

@@ -125,6 +125,7 @@ Result<ExitCode> run(const Arguments& arguments, Console& console) {
   settings.recordings = arguments.text("recordings");
   const auto interest = interest_of(arguments);
   if (!interest) return tl::unexpected(interest.error());
+  if (arguments.has("folds")) settings.diagnosis["folds"] = "outer";
   if (arguments.has("interest")) settings.diagnosis["interest"] = fmt::format("{}", *interest);
   auto recordings = keep_recordings(*trial, arguments);
   if (!recordings) return tl::unexpected(recordings.error());
@@ -155,6 +156,10 @@ CommandRow describe_trial() {
            {.name = "--data-root",
             .meaning = "folder of the data sets to splice into; default: the trial file's",
             .value = "DIR"},
+           {.name = "--folds",
+            .meaning = "search in outer folds, too, as 'diagnose' does; default: as with its "
+                       "--quick",
+            .value = ""},
            interest_argument(),
            {.name = "--recordings",
             .meaning = "keep every case's data set in this folder; "

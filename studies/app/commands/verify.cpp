@@ -67,10 +67,13 @@ Again run_study_again(const Arguments& arguments, const studies::RunSettings& se
 Result<studies::DiagnosisSettings> settings_of_diagnosis(const fs::path& folder) {
   const auto artefact = data::read_artefact(folder / "diagnosis.json", studies::kDiagnosisSchema);
   if (!artefact) return tl::unexpected(artefact.error());
-  return studies::DiagnosisSettings{
+  studies::DiagnosisSettings settings{
       .holdout = artefact->value(nlohmann::ordered_json::json_pointer("/holdout/recordings"),
                                  std::vector<std::string>{}),
       .nested = !artefact->value("quick", false)};
+  const auto interest = artefact->find("interest");
+  if (interest != artefact->end() && interest->is_number()) settings.interest = *interest;
+  return settings;
 }
 
 Again diagnose_again(const Arguments& arguments, const fs::path& again) {

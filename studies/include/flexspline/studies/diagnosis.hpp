@@ -194,6 +194,7 @@ struct Diagnosis {
   std::optional<RigModel> model;
   DisplayUnits display;
   bool quick = false;  ///< no outer folds were asked for
+  double interest = kNotComputed;  ///< DiagnosisSettings::interest that was asked for
   double seconds = kNotComputed;
 };
 

@@ -248,7 +248,8 @@ Result<void> write_trial(const TrialConfig& trial, const TrialSummary& summary,
                          const RunSettings& settings);
 
 /// The diagnosis of these words, on the threads that so many cases side by side leave to each:
-/// "interest", the share of the largest torque below which nothing is named.
+/// "interest", the share of the largest torque below which nothing is named; with "folds" in outer
+/// folds, too.
 Diagnose diagnose_as(const std::map<std::string, std::string>& words, int jobs);
 
 /// All of it; trial.json and tables unless it was interrupted. Without `diagnose`:
