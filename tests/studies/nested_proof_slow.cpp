@@ -7,6 +7,7 @@
 #include "diagnosis/folds.hpp"
 #include "diagnosis/judged_once.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
+#include "flexspline/studies/trial.hpp"
 #include "judged_bench.hpp"
 
 namespace flexspline::studies {
@@ -77,6 +78,16 @@ TEST(NestedProof, TheAnswerIsThatOfQuickAndNotOfTheThreads) {
   EXPECT_EQ(one.cross_validated->rmse_after, quick.holdout.rmse_after);
   EXPECT_EQ(one.holdout.rmse_after, two.holdout.rmse_after);
   EXPECT_EQ(one.causes.front().stability, two.causes.front().stability);
+}
+
+TEST(NestedProof, IsATrialsWhereItAsksForFolds) {
+  const auto with = diagnose_as({{"folds", "outer"}}, 1)(judged_bench(), {});
+  const auto without_folds = diagnose_as({}, 1)(judged_bench(), {});
+  ASSERT_TRUE(with && without_folds);
+  EXPECT_TRUE(with->holdout.nested);
+  EXPECT_FALSE(with->quick);
+  EXPECT_FALSE(without_folds->holdout.nested);
+  EXPECT_TRUE(without_folds->quick);
 }
 
 }  // namespace

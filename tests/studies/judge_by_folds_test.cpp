@@ -1,0 +1,74 @@
+// What the whole search leaves of rows that it did not have is the evidence of names.
+#include <gtest/gtest.h>
+
+#include "accepted_ids.hpp"
+#include "diagnosis/confirm.hpp"
+#include "diagnosis/held_out_error.hpp"
+#include "diagnosis/nested_proof.hpp"
+#include "searched_drive.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::string_view kHidden = "presliding_hysteresis";
+constexpr Eigen::Index kRows = 4000;
+
+class JudgeByFolds : public SearchedDrive {
+ protected:
+  void SetUp() override {
+    search({{std::string(kHidden), 0.06}}, kRows);
+    ASSERT_EQ(s_.accepted.size(), 1U);
+    auto proof = confirm(frame_, limits_, s_);
+    ASSERT_TRUE(proof) << proof.error().message();
+    found_ = {frame_, s_, std::move(*proof)};
+  }
+
+  /// A search that found nothing, or all that there is.
+  SearchedFold fold(bool finds) const {
+    return {frame_.usable, s_.baseline.fit.residual,
+            finds ? s_.final.fit.residual : s_.baseline.fit.residual,
+            {}};
+  }
+  const NameEvidence& evidence() const { return found_.proof.causes.front().name; }
+
+  Finding found_;
+};
+
+TEST_F(JudgeByFolds, AnErrorThatNoFoldLowersLeavesNothingOfAName) {
+  ASSERT_LT(evidence().over_noise, 0.8 * evidence().before_over_noise);
+  ASSERT_GE(probability_of(found_.proof.causes.front()), limits_.probability);
+  const double ratio = evidence().ratio;
+  judge_by_folds(frame_, {fold(false)}, found_);
+  EXPECT_DOUBLE_EQ(evidence().over_noise, evidence().before_over_noise);
+  EXPECT_DOUBLE_EQ(evidence().ratio, ratio) << "no fold says what one cause takes";
+  const auto named = with_probable_names(found_, limits_);
+  ASSERT_TRUE(named) << named.error().message();
+  EXPECT_TRUE(named->selection.accepted.empty());
+  ASSERT_EQ(named->selection.unnamed.size(), 1U) << "it is needed all the same";
+  EXPECT_LT(named->selection.unnamed.front().probability, limits_.probability);
+}
+
+TEST_F(JudgeByFolds, TheirErrorsOverTheNoiseAreTaken) {
+  judge_by_folds(frame_, {fold(true)}, found_);
+  const std::size_t e = index_of(Equation::torsion);
+  EXPECT_NEAR(evidence().over_noise / evidence().before_over_noise,
+              rms_on(s_.final.fit.residual[e], frame_.usable) /
+                  rms_on(s_.baseline.fit.residual[e], frame_.usable),
+              1e-12);
+  const auto named = with_probable_names(found_, limits_);
+  ASSERT_TRUE(named) << named.error().message();
+  EXPECT_EQ(ids(named->selection.accepted), std::vector<std::string_view>{kHidden});
+}
+
+TEST_F(JudgeByFolds, AFoldThatFailedOrHasNotTheEquationJudgesNothing) {
+  const double before = evidence().over_noise;
+  judge_by_folds(frame_, {}, found_);
+  judge_by_folds(frame_, {fold(false), failure(ErrorCode::numerics, "too few")}, found_);
+  SearchedFold without = fold(false);
+  without.after[index_of(Equation::torsion)].resize(0);
+  judge_by_folds(frame_, {without}, found_);
+  EXPECT_EQ(evidence().over_noise, before);
+}
+
+}  // namespace
+}  // namespace flexspline::studies
