@@ -83,10 +83,12 @@ Result<Decision> decide(const RecordingSet& all, const DiagnosisSettings& settin
   auto frame = searched_frame(all, settings.holdout);
   if (!frame) return tl::unexpected(frame.error());
 
-  // Noise, baseline, discrepancy, names, and the folds that choose among them.
+  // Noise, baseline, discrepancy and causes; all of it again without each outer fold.
   const bool nests = settings.nested && settings.holdout.empty() && !one_loop(*frame);
   auto searches = search_all(all, *frame, nests, limits, kMostRows, part_of(progress, 0.0, 0.9));
   if (!searches.finding) return tl::unexpected(searches.finding.error());
+
+  // Names, by rows that had no part in choosing them.
   judge_by_folds(*frame, searches.folds, *searches.finding);
   auto named = with_probable_names(std::move(*searches.finding), limits);
   if (!named) return tl::unexpected(named.error());

@@ -53,21 +53,32 @@ struct Counts {
 SpliceScores splice_scores(const std::vector<ScoredCase>& cases) {
   constexpr double kLarge = 0.05;
   Counts small, large, same;
-  double sum = 0.0;
+  SpliceScores scores;
+  double sum = 0.0, sum_decided = 0.0;
   for (const ScoredCase& one : cases) {
     const ScoredCase* reference = reference_of(cases, one);
     if (reference == nullptr || one.score.failed) continue;
     if (one.score.kind == CaseKind::kept) {
       if (one.answer.change == "none") continue;  // a reference, or its like of a later round
+      const double both = shared(names_of(one), names_of(*reference));
+      const bool decided = one.verdict != name_of(Verdict::undecided);
       same.add(one.verdict == reference->verdict);
-      sum += shared(names_of(one), names_of(*reference));
+      sum += both;
+      sum_decided += decided ? both : 0.0;
+      scores.undecided += decided ? 0 : 1;
     } else if (one.score.kind == CaseKind::spliced && !names(*reference, one.answer)) {
       Counts& counts = one.answer.effects.front().size_fraction < kLarge ? small : large;
       counts.add(names(one, one.answer));
     }
   }
-  return {small.rate(), large.rate(), same.rate(), same.of > 0 ? sum / same.of : kNotComputed,
-          same.of};
+  scores.found_small = small.rate();
+  scores.found_large = large.rate();
+  scores.same_verdict = same.rate();
+  scores.changed = same.of;
+  const int decided = same.of - scores.undecided;
+  if (same.of > 0) scores.names_shared = sum / same.of;
+  if (decided > 0) scores.names_shared_decided = sum_decided / decided;
+  return scores;
 }
 
 }  // namespace flexspline::studies

@@ -110,7 +110,9 @@ ordered_json splice_json(const SpliceScores& scores) {
           {"found_large", rate_json(scores.found_large)},
           {"same_verdict", rate_json(scores.same_verdict)},
           {"names_shared", scores.names_shared},
-          {"changed", scores.changed}};
+          {"names_shared_decided", scores.names_shared_decided},
+          {"changed", scores.changed},
+          {"undecided", scores.undecided}};
 }
 
 /// What the answers are worth beside their names: printed probabilities, intervals, hold-outs.

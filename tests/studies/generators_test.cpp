@@ -129,17 +129,21 @@ TEST(ScoresOfSplices, AreAgainstTheSameRecordingsAsTheyAre) {
     one.score = score_case(one.answer, &diagnosis);
     return one;
   };
+  auto one_loop = made("one_left_out", {}, {});
+  one_loop.verdict = name_of(Verdict::undecided);
   const auto scores =
-      splice_scores({made("none", {}, {"backlash"}), made("mirrored", {}, {"backlash"}),
+      splice_scores({made("none", {}, {"backlash"}), one_loop, made("mirrored", {}, {"backlash"}),
                      made("first_70", {}, {"backlash", "sensor_delay"}),
                      made("every_second", {}, {}), made("none", {}, {"backlash"}),
                      made("none", {"stribeck_friction"}, {"backlash", "stribeck_friction"}),
                      made("none", {"inertia_torque"}, {"backlash"}),
                      made("none", {"inertia_torque"}, {"inertia_torque"}, 0.1),
                      made("none", {"backlash"}, {"backlash"}, 0.1)});
-  EXPECT_EQ(scores.changed, 3) << "the same recordings once more are no change";
+  EXPECT_EQ(scores.changed, 4) << "the same recordings once more are no change";
+  EXPECT_EQ(scores.undecided, 1);
   EXPECT_EQ(scores.same_verdict.count, 2);
-  EXPECT_NEAR(scores.names_shared, (1.0 + 0.5 + 0.0) / 3.0, 1e-12);
+  EXPECT_NEAR(scores.names_shared, (1.0 + 0.5 + 0.0 + 0.0) / 4.0, 1e-12);
+  EXPECT_NEAR(scores.names_shared_decided, (1.0 + 0.5 + 0.0) / 3.0, 1e-12);
   EXPECT_EQ(scores.found_small.count, 1);
   EXPECT_EQ(scores.found_small.of, 2);
   EXPECT_EQ(scores.found_large.count, 1);

@@ -69,7 +69,7 @@ TEST(NestedProof, QuickHasNoneAndSaysSo) {
   EXPECT_TRUE(json["causes"][0]["stability"].is_null());
 }
 
-TEST(NestedProof, TheAnswerIsThatOfQuickAndNotOfTheThreads) {
+TEST(NestedProof, OfAClearCauseTheAnswerIsThatOfQuickAndNotOfTheThreads) {
   const Diagnosis quick = judged(judged_bench(), {.nested = false});
   const Diagnosis one = judged(judged_bench(), {.threads = 1});
   const Diagnosis two = judged(judged_bench(), {.threads = 2});

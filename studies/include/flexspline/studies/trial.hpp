@@ -211,7 +211,10 @@ struct SpliceScores {
   Proportion found_large;   ///< and of the others
   Proportion same_verdict;  ///< of the changed ones
   double names_shared = kNotComputed;  ///< of these: names in both over names in either, mean
+  /// The same of those that are decided: a single loop that is left decides nothing.
+  double names_shared_decided = kNotComputed;
   int changed = 0;
+  int undecided = 0;  ///< of the changed ones
 };
 
 SpliceScores splice_scores(const std::vector<ScoredCase>& cases);
