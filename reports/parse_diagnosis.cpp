@@ -223,9 +223,10 @@ DiagnosisView parse_diagnosis(const json& artefact) {
   view.unnamed = parse_unnamed(member(artefact, "unnamed"));
   view.next = parse_experiment(member(artefact, "next_experiment"));
   parse_list(artefact, "series", parse_series, view.series);
-  // A joint whose transmission is rigid is compared over its own angle.
-  const bool has_torsion = std::ranges::any_of(
-      view.series, [](const ShownSeries& one) { return one.equation == "torsion"; });
+  // What moves the output is compared over its angle.
+  const bool has_torsion = std::ranges::any_of(view.series, [](const ShownSeries& one) {
+    return one.equation == "torsion" || one.motor_angle.empty();
+  });
   if (!view.series.empty() && !has_torsion) view.units.angle = "joint angle";
   view.has_model = !member(artefact, "model").empty();
   for (const json& note : member(artefact, "notes")) {

@@ -245,6 +245,9 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s)
 
 std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation, const ArrayXd& before,
                                        const ArrayXd& after) {
+  const bool winds_up = equation == Equation::torsion || frame.rig == Rig::locked;
+  const ArrayXd& motion = winds_up ? frame.torsion : frame.load_angle;
+  const ArrayXd& rate = winds_up ? frame.torsion_rate : frame.load_speed;
   std::vector<DiagnosedSeries> list;
   for (const Segment& segment : frame.segments) {
     DiagnosedSeries series;
@@ -255,8 +258,8 @@ std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation, co
     const auto [first, last] = judged(frame, segment);
     for (Index r = first; r <= last; r += stride) {
       series.time.push_back(frame.time[r]);
-      series.motion.push_back(frame.torsion[r]);
-      series.rate.push_back(frame.torsion_rate[r]);
+      series.motion.push_back(motion[r]);
+      series.rate.push_back(rate[r]);
       series.measured.push_back(measured[r]);
       series.before.push_back(before[r]);
       series.after.push_back(after[r]);

@@ -79,9 +79,10 @@ void spell_ripple(const Frame& frame, const Selection& s, const RippleFinding& f
   d.notes.push_back(in_words(frame, ripple) + "; it is not part of the model");
   if (finding.taken) return;
   std::erase_if(d.mismatch, [](const Mismatch& m) { return m.coordinate == kCoordinate; });
-  const auto behind_causes = std::min(d.mismatch.size(), s.accepted.size());
-  d.mismatch.insert(d.mismatch.begin() + static_cast<std::ptrdiff_t>(behind_causes),
-                    mismatch_of(frame, ripple));
+  // All of these are larger than what lies in the fast changes.
+  const auto before = frame.incidents.size() + s.accepted.size() + s.unnamed.size();
+  const auto behind = static_cast<std::ptrdiff_t>(std::min(d.mismatch.size(), before));
+  d.mismatch.insert(d.mismatch.begin() + behind, mismatch_of(frame, ripple));
   if (!finding.name) return;
   d.causes.push_back(cause_of(frame, ripple, *finding.name));
   add_to_tried(ripple, *finding.name, d);

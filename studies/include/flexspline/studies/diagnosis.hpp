@@ -161,6 +161,7 @@ struct DiagnosedSeries {
   std::string recording;
   Split split = Split::train;
   std::string equation;
+  /// SI. motion: the torsion in its equation and where the output is locked, else the joint's angle.
   std::vector<double> time, motion, rate, measured, before, after;
   std::vector<double> motor_angle{};  ///< rad; empty where the output is locked
 };
