@@ -109,8 +109,8 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
 }
 
 Result<Finding> with_probable_names(Finding finding, const Limits& limits) {
-  auto proof = take_improbable_names(finding.frame, limits, finding.selection,
-                                     std::move(finding.proof));
+  auto proof =
+      take_improbable_names(finding.frame, limits, finding.selection, std::move(finding.proof));
   if (!proof) return tl::unexpected(proof.error());
   finding.proof = std::move(*proof);
   return finding;

@@ -60,7 +60,8 @@ bool has_a_gap(const Selection& s) {
 bool tells_a_gap(const Selection& firm, const Proof& with_free_f, const Proof& with_gap,
                  const Limits& limits) {
   const HoldoutProof& free = with_free_f.holdout;
-  return names_a_gap(firm, limits) && with_gap.holdout.rmse_after <= free.ci95_upper * free.rmse_before;
+  return names_a_gap(firm, limits) &&
+         with_gap.holdout.rmse_after <= free.ci95_upper * free.rmse_before;
 }
 
 }  // namespace flexspline::studies

@@ -120,13 +120,14 @@ void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>&
   if (folds.empty() || !std::ranges::all_of(folds, &Result<SearchedFold>::has_value)) return;
   const Pooled pool = pooled(whole, folds);
   const ArrayXd held = pool.held * frame.usable;
+  if (held.sum() == 0.0) return;
+  const auto judged = [&](Equation at) {
+    return !frame.has(at) ||
+           std::ranges::all_of(folds, [&](const auto& fold) { return has(*fold, at); });
+  };
   for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
     const CauseForm& form = *selection.accepted[i].trial.cause.form;
-    const bool judged = std::ranges::all_of(form.at, [&](Equation at) {
-      return !frame.has(at) ||
-             std::ranges::all_of(folds, [&](const auto& fold) { return has(*fold, at); });
-    });
-    if (!judged) continue;
+    if (!std::ranges::all_of(form.at, judged)) continue;
     take_errors(frame, selection.final, form, pool.before, pool.after, held,
                 finding.proof.causes[i].name);
   }

@@ -25,7 +25,8 @@ class JudgeByFolds : public SearchedDrive {
 
   /// A search that found nothing, or all that there is.
   SearchedFold fold(bool finds) const {
-    return {frame_.usable, s_.baseline.fit.residual,
+    return {frame_.usable,
+            s_.baseline.fit.residual,
             finds ? s_.final.fit.residual : s_.baseline.fit.residual,
             {}};
   }

@@ -161,7 +161,8 @@ struct DiagnosedSeries {
   std::string recording;
   Split split = Split::train;
   std::string equation;
-  /// SI. motion: the torsion in its equation and where the output is locked, else the joint's angle.
+  /// SI. motion: the torsion in its equation and where the output is locked, else the joint's
+  /// angle.
   std::vector<double> time, motion, rate, measured, before, after;
   std::vector<double> motor_angle{};  ///< rad; empty where the output is locked
 };
@@ -194,7 +195,7 @@ struct Diagnosis {
   /// decided.
   std::optional<RigModel> model;
   DisplayUnits display;
-  bool quick = false;  ///< no outer folds were asked for
+  bool quick = false;              ///< no outer folds were asked for
   double interest = kNotComputed;  ///< DiagnosisSettings::interest that was asked for
   double seconds = kNotComputed;
 };
