@@ -9,7 +9,6 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr std::string_view kHidden = "presliding_hysteresis";
 constexpr Eigen::Index kRows = 16000;
 
 class Confirm : public SearchedDrive {
@@ -26,7 +25,7 @@ class Confirm : public SearchedDrive {
 };
 
 TEST_F(Confirm, KeepsWhatHoldsOnRecordingsHeldOut) {
-  search({{std::string(kHidden), 0.06}}, kRows);
+  search_hidden(kRows);
   const auto proof = confirm(frame_, limits_, s_);
   ASSERT_TRUE(proof) << proof.error().message();
   EXPECT_THAT(ids(s_.accepted), testing::ElementsAre(kHidden));

@@ -10,13 +10,12 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr std::string_view kHidden = "presliding_hysteresis";
 constexpr Eigen::Index kRows = 4000;
 
 class JudgeByFolds : public SearchedDrive {
  protected:
   void SetUp() override {
-    search({{std::string(kHidden), 0.06}}, kRows);
+    search_hidden(kRows);
     ASSERT_EQ(s_.accepted.size(), 1U);
     auto proof = confirm(frame_, limits_, s_);
     ASSERT_TRUE(proof) << proof.error().message();

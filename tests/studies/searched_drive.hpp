@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +14,11 @@ namespace flexspline::studies {
 /// A locked drive that was searched for causes, its baseline settled.
 class SearchedDrive : public testing::Test {
  protected:
+  static constexpr std::string_view kHidden = "presliding_hysteresis";
+
+  /// With a clear effect.
+  void search_hidden(Eigen::Index most_rows) { search({{std::string(kHidden), 0.06}}, most_rows); }
+
   void search(const std::vector<data::HiddenEffect>& hidden, Eigen::Index most_rows) {
     auto made = make_frame(drawn_case(Rig::locked, 201, hidden).recordings, most_rows);
     ASSERT_TRUE(made) << made.error().message();

@@ -18,13 +18,12 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-constexpr std::string_view kHidden = "presliding_hysteresis";
 constexpr Eigen::Index kRows = 4000;
 
 class UnnamedCauses : public SearchedDrive {
  protected:
   void SetUp() override {
-    search({{std::string(kHidden), 0.06}}, kRows);
+    search_hidden(kRows);
     ASSERT_THAT(ids(s_.accepted), ElementsAre(kHidden));
   }
 
