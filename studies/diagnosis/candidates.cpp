@@ -50,17 +50,6 @@ int parameters_of(const ActiveCause& cause, const ModelFit& fit) {
   return std::max(count, 1);
 }
 
-double size_of(const Frame& frame, const Findings& findings, const Trial& trial) {
-  double size = 0.0;
-  for (Equation equation : trial.cause.form->at) {
-    if (!frame.has(equation)) continue;
-    const ArrayXd part = contribution(frame, trial.fit.model, findings.reference,
-                                      trial.fit.model.causes.size() - 1, equation);
-    size = std::max(size, (part.abs() * frame.usable).maxCoeff() / frame.largest_torque(equation));
-  }
-  return size;
-}
-
 // What the baseline does not take back of a cause.
 double change_of(const Frame& frame, const Findings& findings, const Trial& trial) {
   double change = 0.0;
@@ -159,7 +148,8 @@ Trial judged(const Frame& frame, const Findings& findings, ModelFit fit, std::si
                    trial.parameters * std::log(effective_rows(frame, findings, *trial.cause.form));
   const double misfit = excess(frame, findings, findings.fit);
   trial.removed = misfit > 0.0 ? std::clamp(trial.gain / misfit, 0.0, 1.0) : kNotComputed;
-  trial.size = size_of(frame, findings, trial);
+  trial.size = share_of_torque(frame, trial.fit.model, findings.reference,
+                               trial.fit.model.causes.size() - 1);
   trial.change = change_of(frame, findings, trial);
   return trial;
 }

@@ -151,6 +151,17 @@ ArrayXd contribution(const Frame& frame, const DriveModel& model, const Referenc
   return less - with;
 }
 
+double share_of_torque(const Frame& frame, const DriveModel& model, const Reference& reference,
+                       std::size_t cause) {
+  double size = 0.0;
+  for (Equation equation : model.causes[cause].form->at) {
+    if (!frame.has(equation)) continue;
+    const ArrayXd part = contribution(frame, model, reference, cause, equation);
+    size = std::max(size, (part.abs() * frame.usable).maxCoeff() / frame.largest_torque(equation));
+  }
+  return size;
+}
+
 std::vector<Equation> equations_touched(const Frame& frame,
                                         const std::vector<ActiveCause>& causes) {
   std::set<Equation> touched;

@@ -70,6 +70,10 @@ Reference reference_of(const Frame& frame, const DriveModel& model);
 Eigen::ArrayXd contribution(const Frame& frame, const DriveModel& model, const Reference& reference,
                             std::size_t cause, Equation equation);
 
+/// The largest of that over the largest torque of its equation, over usable rows.
+double share_of_torque(const Frame& frame, const DriveModel& model, const Reference& reference,
+                       std::size_t cause);
+
 /// Equations that the causes act on, closed under links between them.
 std::vector<Equation> equations_touched(const Frame& frame, const std::vector<ActiveCause>& causes);
 

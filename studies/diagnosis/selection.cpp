@@ -32,13 +32,16 @@ std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const L
   return static_cast<std::size_t>((part != trials.end() ? part : best) - trials.begin());
 }
 
+bool is_material(const Trial& trial, const Limits& limits) {
+  return !trial.cause.row->of_baseline() && trial.size >= limits.interest &&
+         trial.net_gain >= limits.named_gain;
+}
+
 Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
   Accepted accepted;
   accepted.trial = std::move(trials[best]);
   accepted.first_gain = accepted.trial.gain;
-  accepted.material = !accepted.trial.cause.row->of_baseline() &&
-                      accepted.trial.size >= limits.interest &&
-                      accepted.trial.net_gain >= limits.named_gain;
+  accepted.material = is_material(accepted.trial, limits);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
     const bool alike =
@@ -47,6 +50,18 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
     (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
   }
   return accepted;
+}
+
+// What was too small when it was accepted may be large beside what came after it.
+void judge_small_again(const Frame& frame, const Limits& limits, Selection& s) {
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    Accepted& a = s.accepted[i];
+    if (a.material || a.trial.cause.row->of_baseline()) continue;
+    a.trial.net_gain += a.trial.gain - a.first_gain;
+    a.first_gain = a.trial.gain;
+    a.trial.size = share_of_torque(frame, s.final.fit.model, s.final.reference, i);
+    a.material = is_material(a.trial, limits);
+  }
 }
 
 // Immaterial causes first, in the lists as in the model.
@@ -130,6 +145,7 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   if (!cleared) return tl::unexpected(cleared.error());
   const auto plain = take_plain_forms(frame, limits, s);
   if (!plain) return tl::unexpected(plain.error());
+  judge_small_again(frame, limits, s);
   return s;
 }
 

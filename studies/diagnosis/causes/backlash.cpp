@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/cause_columns.hpp"
 
@@ -74,6 +75,39 @@ void after_reversal(Frame& f, Values shape) {
   }
 }
 
+bool moves_its_motor(const Frame& f) { return geared(f) && f.motor_inertia > 0.0; }
+
+std::vector<Shape> crossing(const Frame& f) {
+  return {{.name = "crossing_time",
+           .unit = "s",
+           .lower = 0.3 * f.interval,
+           .upper = 3.0 * f.interval,
+           .meaning = "standard deviation in time of the motor's rate across the gap"}};
+}
+
+// As the load's torque changes its sign the motor jumps by a = 2 N b, in this rig unseen, by the
+// normal distribution's law in time: its torque shows J1 times the acceleration of that.
+Columns motor_jumps(Equation, const Frame& f, const Reference&, Values shape) {
+  const double width = shape[0];
+  const double unit = f.motor_inertia / (width * width) * std::numbers::inv_sqrtpi / std::sqrt(2.0);
+  ArrayXd column = ArrayXd::Zero(f.rows());
+  for (const Segment& s : f.segments) {
+    const auto time = f.time.segment(s.first, s.count);
+    for (Eigen::Index r = s.first; r + 1 < s.first + s.count; ++r) {
+      const double before = f.torque[r], after = f.torque[r + 1];
+      if (before * after >= 0.0) continue;
+      const double at = f.time[r] + before / (before - after) * (f.time[r + 1] - f.time[r]);
+      const ArrayXd x = (time - at) / width;
+      column.segment(s.first, s.count) -= std::copysign(unit, after) * x * (-0.5 * x.square()).exp();
+    }
+  }
+  return {column};
+}
+
+std::vector<Term> jump(const Frame&) {
+  return {{"jump", "rad", "of the motor, 2 N b if its torque alone moves it"}};
+}
+
 // f gets what is beyond the gap; the damper moves in it too.
 Counterpart gap_of_the_spring(const FittedCause& c) {
   const double b = c.shape[0];
@@ -92,6 +126,8 @@ Counterpart as_lost_motion(const FittedCause& c) {
 
 constexpr std::string_view kNotByMotion =
     "the catalogue's play follows the torque, not the torsion";
+constexpr std::string_view kByItsLoop =
+    "what crosses the gap is the motor's loop; how wide the gap is its torque does not tell";
 
 }  // namespace
 
@@ -126,7 +162,17 @@ CauseRow describe_backlash() {
                      .shapes = gap,
                      .transform = after_reversal,
                      .where = wound_up,
-                     .no_counterpart = kNotByMotion}}};
+                     .no_counterpart = kNotByMotion},
+                    {.equation = "tau_f += J1 a e'', e a step of the motor as the load's torque "
+                                 "changes its sign",
+                     .rigs = {Rig::servo},
+                     .at = {Equation::motor},
+                     .shapes = crossing,
+                     .terms = jump,
+                     .columns = motor_jumps,
+                     .nonnegative = true,
+                     .where = moves_its_motor,
+                     .no_counterpart = kByItsLoop}}};
 }
 
 }  // namespace flexspline::studies

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "diagnosis/cause_columns.hpp"
@@ -6,14 +7,20 @@
 namespace flexspline::studies {
 namespace {
 
+using Eigen::ArrayXcd;
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
-constexpr double kLeastSeen = 0.25;  // of all rows: docs/decisions/0032
+constexpr double kMostRows = 0.5;
 // Of the largest speed. Beyond 3 the loop answers with 0.95 of all and more, as the plain form;
 // below 0.03 with a thirtieth at most where the motor is fastest.
 constexpr double kSlowestCorner = 0.03, kFastestCorner = 3.0;
+// Of a loop: below it rings on, above it is of first order.
+constexpr double kLeastDamping = 0.3, kMostDamping = 3.0;
+// Of the motor under the largest torque, rad: less turns no phase that could be told, and a gear is
+// not wound up by more.
+constexpr double kLeastWindup = 0.01, kMostWindup = 1.0;
 constexpr std::string_view kOfTheLoop =
     "a control loop is no part of the gear; at rest the ripple is what the parameters say";
 
@@ -57,66 +64,108 @@ ArrayXd kept(const Frame& f, double order) {
   return 1.0 / (1.0 + (order * f.motor_speed / f.motor_bandwidth).pow(6.0));
 }
 
-Columns ripple_followed(Equation, const Frame& f, const Reference&, Values shape) {
-  return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]));
+std::vector<Shape> and_loop(std::vector<Shape> shapes, const Frame& f) {
+  shapes.push_back({.name = "corner_speed",
+                    .unit = "rad/s",
+                    .lower = kSlowestCorner * f.speed_range,
+                    .upper = kFastestCorner * f.speed_range,
+                    .meaning = "of the motor, above which its control loop does not keep up"});
+  shapes.push_back({.name = "loop_damping",
+                    .unit = "1",
+                    .lower = kLeastDamping,
+                    .upper = kMostDamping,
+                    .meaning = "damping ratio of that loop"});
+  return shapes;
 }
 
-Columns ripple_under_current_followed(Equation, const Frame& f, const Reference&, Values shape) {
-  return sine_pair(f.motor_angle, shape[0], kept(f, shape[0]) * f.smooth_motor_torque);
+std::vector<Shape> turns_and_loop(const Frame& f) { return and_loop(turns(f), f); }
+
+std::vector<Shape> turns_loop_and_windup(const Frame& f) {
+  auto shapes = and_loop(turns(f), f);
+  shapes.push_back({.name = "windup",
+                    .unit = "rad",
+                    .lower = kLeastWindup,
+                    .upper = kMostWindup,
+                    .meaning = "of the motor ahead of the load under the largest torque"});
+  return shapes;
 }
 
-// Whether a quarter of all rows lies in stretches in which smoothing keeps a whole period of a
-// ripple and more. What is kept about reversals alone is no ripple, but what friction does there.
-bool shows_periods(const Frame& f, double order) {
-  const auto seen = [&](Eigen::Index r) {  // kept by half and more
-    return f.motor_bandwidth.size() == 0 ||
-           order * std::abs(f.motor_speed[r]) < f.motor_bandwidth[r];
-  };
+/// What is left of a ripple in the motor equation, behind a loop and before an elastic gear:
+/// docs/decisions/0041. The loop C = G s + K, the motor J1, the load J2 at its shaft, J both, on a
+/// gear whose compliance c is one of the output; H what smoothing keeps of an acceleration. With
+/// q = 1 + c N^2 J2 s^2 at s = i k theta',
+///   T = (C q + M s^2) / (C q + (J1 q + J2) s^2),
+/// M = H J on a servo, of whose load alone the acceleration is known, and H J1 q + J2 where the
+/// motor's is and the torque of the gear is recorded. Here over J w^2, x = theta'/w, w = G/(J k),
+/// and K J/G^2 = 1/(4 z^2).
+struct Loop {
+  double order, corner, damping;
+  double load = 0.0;        ///< J2
+  double compliance = 0.0;  ///< c, rad/Nm
+
+  ArrayXcd share(const Frame& f) const {
+    const double turns = f.ratio * f.ratio;
+    const double motor = f.motor_inertia > 0.0 ? f.motor_inertia / (f.motor_inertia + load) : 1.0;
+    const ArrayXd x = f.motor_speed / corner;
+    const ArrayXd q = 1.0 - compliance * turns * load * (order * f.motor_speed).square();
+    const ArrayXd mass = motor * q + (1.0 - motor);
+    const ArrayXd h = kept(f, order);
+    const ArrayXd seen = f.rig == Rig::servo ? h : h * motor * q + (1.0 - motor);
+    const auto i_x = std::complex<double>(0.0, 1.0) * x.cast<std::complex<double>>();
+    const ArrayXcd answer = (i_x + 0.25 / (damping * damping)) * q;
+    return (answer - seen * x.square()) / (answer - mass * x.square());
+  }
+};
+
+// Whether most rows lie in stretches in which half and more is left of whole periods.
+// What is left about reversals alone is no ripple, but what friction does there.
+bool shows_periods(const Frame& f, const ArrayXd& left, double order) {
   Eigen::Index in_periods = 0;
   for (const Segment& s : f.segments) {
     Eigen::Index first = s.first;
     for (Eigen::Index r = s.first; r <= s.first + s.count; ++r) {
-      if (r < s.first + s.count && seen(r)) continue;
+      if (r < s.first + s.count && left[r] > 0.5) continue;
       const auto stretch = f.motor_angle.segment(first, r - first);
       const double turned = r > first ? stretch.maxCoeff() - stretch.minCoeff() : 0.0;
       if (order * turned > 2.0 * std::numbers::pi) in_periods += r - first;
       first = r + 1;
     }
   }
-  return static_cast<double>(in_periods) > kLeastSeen * static_cast<double>(f.rows());
+  return static_cast<double>(in_periods) > kMostRows * static_cast<double>(f.rows());
 }
 
-std::vector<Shape> turns_that_show(const Frame& f) {
-  double highest = kHighestOrder;
-  while (highest > 1.0 && !shows_periods(f, highest)) --highest;
-  return turns_up_to(highest);
+// Re[T c e^(i k theta)], the c by the factor of a row; nothing where no ripple would be seen.
+Columns left_of(const Loop& loop, const Frame& f, const ArrayXd& angle, const ArrayXd& factor) {
+  const ArrayXcd share = loop.share(f);
+  if (!shows_periods(f, share.abs(), loop.order)) return Columns(2, ArrayXd::Zero(f.rows()));
+  const Columns wave = sine_pair(angle, loop.order, factor);
+  return {share.real() * wave[0] + share.imag() * wave[1],
+          share.real() * wave[1] - share.imag() * wave[0]};
 }
 
-// Where smoothing takes away a tenth and more of an order that shows.
-bool follows(const Frame& f) {
-  if (!geared(f)) return false;
-  const double highest = turns_that_show(f).front().upper;
-  return shows_periods(f, highest) && kept(f, highest).minCoeff() < 0.9;
+// The motor turns ahead of the load by the gear's windup, in proportion to the torque. Where the
+// load is not stated the gear is a stiff one.
+Columns ripple_of_servo(Equation, const Frame& f, const Reference&, Values shape) {
+  const double windup = shape[3] / f.torque_range;
+  Loop loop{shape[0], shape[1], shape[2]};
+  if (f.load_mass > 0.0 && f.arm_length > 0.0) {
+    loop.load = f.load_mass * f.arm_length * f.arm_length / (f.ratio * f.ratio);
+    loop.compliance = windup / f.ratio;
+  }
+  return left_of(loop, f, f.motor_angle + windup * f.torque, ArrayXd::Ones(f.rows()));
 }
 
-std::vector<Shape> turns_and_corner(const Frame& f) {
-  auto shapes = turns(f);
-  shapes.push_back({.name = "corner_speed",
-                    .unit = "rad/s",
-                    .lower = kSlowestCorner * f.speed_range,
-                    .upper = kFastestCorner * f.speed_range,
-                    .meaning = "of the motor, above which its control loop does not keep up"});
-  return shapes;
+Loop loop_of_drive(const Frame& f, Values shape) {
+  return {shape[0], shape[1], shape[2], f.load_inertia / (f.ratio * f.ratio),
+          f.torsion_range / f.torque_range};
 }
 
-// A loop that holds a motor to its reference answers what disturbs it, Re[c e^(i k theta)], by
-// Re[T c e^(i k theta)]: all of it at rest, and as a filter of first order what comes faster,
-// T = 1/(1 + i theta'/w).
-Columns ripple_answered(Equation, const Frame& f, const Reference&, Values shape) {
-  const ArrayXd speed = f.motor_speed / shape[1];
-  const ArrayXd share = 1.0 / (1.0 + speed.square());
-  const Columns wave = sine_pair(f.motor_angle, shape[0], share);
-  return {wave[0] - speed * wave[1], wave[1] + speed * wave[0]};
+Columns ripple_of_drive(Equation, const Frame& f, const Reference&, Values shape) {
+  return left_of(loop_of_drive(f, shape), f, f.motor_angle, ArrayXd::Ones(f.rows()));
+}
+
+Columns ripple_of_drive_under_current(Equation, const Frame& f, const Reference&, Values shape) {
+  return left_of(loop_of_drive(f, shape), f, f.motor_angle, f.smooth_motor_torque);
 }
 
 // A channel that ripples was zeroed at some angle of the motor: there it shows nothing.
@@ -194,31 +243,31 @@ CauseRow describe_motor_torque_ripple() {
                      .columns = ripple_under_current,
                      .where = geared,
                      .counterpart = under_current},
-                    {.equation = "tau_f += a sin k theta_m + b cos k theta_m, which the motor "
-                                 "follows",
-                     .rigs = kTurning,
+                    {.equation = "tau_f += T(a sin k theta_m + b cos k theta_m), what a loop, the "
+                                 "motor and the gear leave of it",
+                     .rigs = {Rig::free},
                      .at = {Equation::motor},
-                     .shapes = turns_that_show,
+                     .shapes = turns_and_loop,
                      .terms = cogging_terms,
-                     .columns = ripple_followed,
-                     .where = follows,
+                     .columns = ripple_of_drive,
+                     .where = geared,
                      .counterpart = cogging},
-                    {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m), which the "
-                                 "motor follows",
-                     .rigs = kTurning,
+                    {.equation = "tau_f += T(tau_m (a sin k theta_m + b cos k theta_m)), what a "
+                                 "loop, the motor and the gear leave of it",
+                     .rigs = {Rig::free},
                      .at = {Equation::motor},
-                     .shapes = turns_that_show,
+                     .shapes = turns_and_loop,
                      .terms = ripple_terms,
-                     .columns = ripple_under_current_followed,
-                     .where = follows,
+                     .columns = ripple_of_drive_under_current,
+                     .where = geared,
                      .counterpart = under_current},
-                    {.equation = "tau_f += a sin k theta_m + b cos k theta_m, of which the loop "
-                                 "answers 1/(1 + i theta_m'/w)",
+                    {.equation = "tau_f += T(a sin k theta_m + b cos k theta_m), what a loop, the "
+                                 "motor and the gear leave of it",
                      .rigs = {Rig::servo},
                      .at = {Equation::motor},
-                     .shapes = turns_and_corner,
+                     .shapes = turns_loop_and_windup,
                      .terms = cogging_terms,
-                     .columns = ripple_answered,
+                     .columns = ripple_of_servo,
                      .where = geared,
                      .no_counterpart = kOfTheLoop}}};
 }
