@@ -33,7 +33,7 @@ Result<Selection> first_causes(const Frame& frame, const Limits& limits, Selecti
                                std::size_t count) {
   while (s.accepted.size() > count) {
     const auto left_out =
-        leave_out(frame, s, s.accepted.size() - 1, "its name is less than twice as likely right as wrong");
+        leave_out(frame, s, s.accepted.size() - 1, "its name is hardly likelier right than wrong");
     if (!left_out) return tl::unexpected(left_out.error());
   }
   locate_misfit(frame, limits, s);
