@@ -22,7 +22,7 @@ struct Limits {
                           ///< a peak, a trifle
   double shadow = 0.03;   ///< gain over that of a larger cause of the same equation
   double tenth = 0.1;     ///< of a residual, a gain, or of what could stand for the same: no trifle
-  double probability = 0.6;  ///< least probability of a name or one of its alternatives
+  double probability = 0.6;   ///< least probability of a name or one of its alternatives
   std::size_t incidents = 3;  ///< stretches of single recordings that are left out at most
   int rounds = 7;
   unsigned threads = 0;  ///< 0: as many as the machine has

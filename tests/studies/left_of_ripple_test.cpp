@@ -1,5 +1,5 @@
-// What a motor equation leaves of a ripple of the motor's torque: a motor in a position loop, before
-// an elastic gear and a load, integrated, against the forms of motor_torque_ripple.
+// What a motor equation leaves of a ripple of the motor's torque: a motor in a position loop,
+// before an elastic gear and a load, integrated, against the forms of motor_torque_ripple.
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -15,11 +15,11 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kRatio = 50.0, kMotor = 6e-4, kLoad = 7e-4;   // kg m^2, at the motor's shaft
-constexpr double kGear = 5.0, kGearDamping = 4e-3;             // Nm/rad, Nm/(rad/s), there too
-constexpr double kGain = 0.09, kStiffness = 3.0;               // of the loop
-constexpr double kRipple = 0.05, kOrder = 4.0;                 // Nm, of a turn
-constexpr double kSample = 0.01, kFine = 2e-5;                 // s
+constexpr double kRatio = 50.0, kMotor = 6e-4, kLoad = 7e-4;  // kg m^2, at the motor's shaft
+constexpr double kGear = 5.0, kGearDamping = 4e-3;            // Nm/rad, Nm/(rad/s), there too
+constexpr double kGain = 0.09, kStiffness = 3.0;              // of the loop
+constexpr double kRipple = 0.05, kOrder = 4.0;                // Nm, of a turn
+constexpr double kSample = 0.01, kFine = 2e-5;                // s
 constexpr Index kRows = 12000;
 
 double reference_angle(double t) { return 300.0 * std::sin(0.06 * t); }
@@ -33,9 +33,7 @@ struct State {
   double loop(double t) const {
     return kStiffness * (reference_angle(t) - motor) + kGain * (reference_speed(t) - motor_speed);
   }
-  double gear() const {
-    return kGear * (motor - load) + kGearDamping * (motor_speed - load_speed);
-  }
+  double gear() const { return kGear * (motor - load) + kGearDamping * (motor_speed - load_speed); }
   double motor_acceleration(double t, double loop_share, double feed) const {
     return (loop_share * loop(t) + feed - gear() - kRipple * std::sin(kOrder * motor)) / kMotor;
   }
@@ -66,8 +64,8 @@ Turned turned(bool with_loop) {
     turn.smooth[i] = reference_acceleration(t);
     for (int k = 0; k < steps; ++k) {
       const double at = t + kFine * k;
-      s.motor_speed += kFine * s.motor_acceleration(
-                                   at, loop_share, (kMotor + kLoad) * reference_acceleration(at));
+      s.motor_speed += kFine * s.motor_acceleration(at, loop_share,
+                                                    (kMotor + kLoad) * reference_acceleration(at));
       s.load_speed += kFine * s.gear() / kLoad;
       s.motor += kFine * s.motor_speed;
       s.load += kFine * s.load_speed;

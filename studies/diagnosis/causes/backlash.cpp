@@ -98,7 +98,8 @@ Columns motor_jumps(Equation, const Frame& f, const Reference&, Values shape) {
       if (before * after >= 0.0) continue;
       const double at = f.time[r] + before / (before - after) * (f.time[r + 1] - f.time[r]);
       const ArrayXd x = (time - at) / width;
-      column.segment(s.first, s.count) -= std::copysign(unit, after) * x * (-0.5 * x.square()).exp();
+      column.segment(s.first, s.count) -=
+          std::copysign(unit, after) * x * (-0.5 * x.square()).exp();
     }
   }
   return {column};

@@ -24,16 +24,14 @@ constexpr double kLeastWindup = 0.01, kMostWindup = 1.0;
 constexpr std::string_view kOfTheLoop =
     "a control loop is no part of the gear; at rest the ripple is what the parameters say";
 
-std::vector<Shape> turns_up_to(double highest) {
+std::vector<Shape> turns(const Frame&) {
   return {{.name = "order",
            .unit = "1",
            .lower = 1.0,
-           .upper = highest,
+           .upper = kHighestOrder,
            .discrete = true,
            .meaning = "of a turn of the motor"}};
 }
-
-std::vector<Shape> turns(const Frame&) { return turns_up_to(kHighestOrder); }
 
 std::vector<Shape> turns_and_zero(const Frame& f) {
   auto shapes = turns(f);
@@ -45,6 +43,8 @@ std::vector<Shape> turns_and_zero(const Frame& f) {
                     .meaning = "phase of the ripple at which the channel was zeroed"});
   return shapes;
 }
+
+bool winds_up(const Frame& f) { return geared(f) && f.torque_range > 0.0; }
 
 bool ripples(double order) { return order >= 1.0 && order <= kHighestOrder; }
 
@@ -111,14 +111,14 @@ struct Loop {
     const ArrayXd mass = motor * q + (1.0 - motor);
     const ArrayXd h = kept(f, order);
     const ArrayXd seen = f.rig == Rig::servo ? h : h * motor * q + (1.0 - motor);
-    const auto i_x = std::complex<double>(0.0, 1.0) * x.cast<std::complex<double>>();
+    const ArrayXcd i_x = std::complex<double>(0.0, 1.0) * x.cast<std::complex<double>>();
     const ArrayXcd answer = (i_x + 0.25 / (damping * damping)) * q;
     return (answer - seen * x.square()) / (answer - mass * x.square());
   }
 };
 
-// Whether most rows lie in stretches in which half and more is left of whole periods.
-// What is left about reversals alone is no ripple, but what friction does there.
+// Whether most rows lie in stretches in which half and more is left of whole periods. What is left
+// about reversals alone is no ripple, but what friction does there.
 bool shows_periods(const Frame& f, const ArrayXd& left, double order) {
   Eigen::Index in_periods = 0;
   for (const Segment& s : f.segments) {
@@ -250,7 +250,7 @@ CauseRow describe_motor_torque_ripple() {
                      .shapes = turns_and_loop,
                      .terms = cogging_terms,
                      .columns = ripple_of_drive,
-                     .where = geared,
+                     .where = winds_up,
                      .counterpart = cogging},
                     {.equation = "tau_f += T(tau_m (a sin k theta_m + b cos k theta_m)), what a "
                                  "loop, the motor and the gear leave of it",
@@ -259,7 +259,7 @@ CauseRow describe_motor_torque_ripple() {
                      .shapes = turns_and_loop,
                      .terms = ripple_terms,
                      .columns = ripple_of_drive_under_current,
-                     .where = geared,
+                     .where = winds_up,
                      .counterpart = under_current},
                     {.equation = "tau_f += T(a sin k theta_m + b cos k theta_m), what a loop, the "
                                  "motor and the gear leave of it",
@@ -268,7 +268,7 @@ CauseRow describe_motor_torque_ripple() {
                      .shapes = turns_loop_and_windup,
                      .terms = cogging_terms,
                      .columns = ripple_of_servo,
-                     .where = geared,
+                     .where = winds_up,
                      .no_counterpart = kOfTheLoop}}};
 }
 
