@@ -52,18 +52,6 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
   return accepted;
 }
 
-// What was too small when it was accepted may be large beside what came after it.
-void judge_small_again(const Frame& frame, const Limits& limits, Selection& s) {
-  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    Accepted& a = s.accepted[i];
-    if (a.material || a.trial.cause.row->of_baseline()) continue;
-    a.trial.net_gain += a.trial.gain - a.first_gain;
-    a.first_gain = a.trial.gain;
-    a.trial.size = share_of_torque(frame, s.final.fit.model, s.final.reference, i);
-    a.material = is_material(a.trial, limits);
-  }
-}
-
 // Immaterial causes first, in the lists as in the model.
 void put_immaterial_first(Selection& s) {
   DriveModel& model = s.final.fit.model;
@@ -125,6 +113,17 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
 bool is_taken_up(const Trial& trial, const Limits& limits) {
   return trial.cause.form->transform == nullptr && trial.size >= limits.half &&
          trial.change < trial.size;
+}
+
+void judge_small_again(const Frame& frame, const Limits& limits, Selection& s) {
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    Accepted& a = s.accepted[i];
+    if (a.material || a.trial.cause.row->of_baseline()) continue;
+    a.trial.net_gain += a.trial.gain - a.first_gain;
+    a.first_gain = a.trial.gain;
+    a.trial.size = share_of_torque(frame, s.final.fit.model, s.final.reference, i);
+    a.material = is_material(a.trial, limits);
+  }
 }
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,

@@ -67,6 +67,10 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 /// True for columns that the baseline counteracts: large, and larger than what is seen of them.
 bool is_taken_up(const Trial& trial, const Limits& limits);
 
+/// Makes a cause material that was too small to be named when it was accepted, and now adds
+/// limits.interest of the largest torque and is worth limits.named_gain beside what came after it.
+void judge_small_again(const Frame& frame, const Limits& limits, Selection& selection);
+
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. Where another selection of nearly the same frame is given, it goes on from its
 /// causes, and what was redundant there is not tried again. Neither settled nor located:

@@ -56,9 +56,7 @@ Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values 
   return sine_pair(f.motor_angle, shape[0], f.smooth_motor_torque);
 }
 
-// A motor whose drive does not answer a ripple follows it, and J theta'' takes it up. With theta''
-// smoothed, J theta''_s = H (tau_m - tau_f - ripple): of the smooth torques all is left, of the
-// ripple what the smoothing H keeps.
+// H, what smoothing keeps of an acceleration at s = i k theta': docs/decisions/0032.
 ArrayXd kept(const Frame& f, double order) {
   if (f.motor_bandwidth.size() == 0) return ArrayXd::Ones(f.rows());
   return 1.0 / (1.0 + (order * f.motor_speed / f.motor_bandwidth).pow(6.0));
@@ -99,21 +97,24 @@ std::vector<Shape> turns_loop_and_windup(const Frame& f) {
 /// motor's is and the torque of the gear is recorded. Here over J w^2, x = theta'/w, w = G/(J k),
 /// and K J/G^2 = 1/(4 z^2).
 struct Loop {
-  double order, corner, damping;
-  double load = 0.0;        ///< J2
+  double order;             ///< k, of a turn of the motor
+  double corner;            ///< w, rad/s of the motor
+  double damping;           ///< z
+  double load = 0.0;        ///< J2, kg m^2
   double compliance = 0.0;  ///< c, rad/Nm
 
+  /// T of every row; 1 at rest.
   ArrayXcd share(const Frame& f) const {
     const double turns = f.ratio * f.ratio;
     const double motor = f.motor_inertia > 0.0 ? f.motor_inertia / (f.motor_inertia + load) : 1.0;
     const ArrayXd x = f.motor_speed / corner;
     const ArrayXd q = 1.0 - compliance * turns * load * (order * f.motor_speed).square();
-    const ArrayXd mass = motor * q + (1.0 - motor);
+    const ArrayXd inertia = motor * q + (1.0 - motor);
     const ArrayXd h = kept(f, order);
     const ArrayXd seen = f.rig == Rig::servo ? h : h * motor * q + (1.0 - motor);
     const ArrayXcd i_x = std::complex<double>(0.0, 1.0) * x.cast<std::complex<double>>();
     const ArrayXcd answer = (i_x + 0.25 / (damping * damping)) * q;
-    return (answer - seen * x.square()) / (answer - mass * x.square());
+    return (answer - seen * x.square()) / (answer - inertia * x.square());
   }
 };
 
@@ -144,11 +145,11 @@ Columns left_of(const Loop& loop, const Frame& f, const ArrayXd& angle, const Ar
 }
 
 // The motor turns ahead of the load by the gear's windup, in proportion to the torque. Where the
-// load is not stated the gear is a stiff one.
+// inertias are not stated the gear is a stiff one.
 Columns ripple_of_servo(Equation, const Frame& f, const Reference&, Values shape) {
   const double windup = shape[3] / f.torque_range;
   Loop loop{shape[0], shape[1], shape[2]};
-  if (f.load_mass > 0.0 && f.arm_length > 0.0) {
+  if (f.motor_inertia > 0.0 && f.load_mass > 0.0 && f.arm_length > 0.0) {
     loop.load = f.load_mass * f.arm_length * f.arm_length / (f.ratio * f.ratio);
     loop.compliance = windup / f.ratio;
   }
