@@ -194,6 +194,7 @@ class FrameMaker {
       f.load_acceleration = f.torsion_acceleration;
       return;
     }
+    if (f.rig == Rig::free) return;  // smoothed as it is
     if (f.rig == Rig::servo) f.hang_pendulum();
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;

@@ -22,11 +22,12 @@ struct PeriodicAngle {
 };
 
 /// Orders 1, 2, 2 (1 + 1/N) and 4 by regression of the raw torsion on the turns, both about running
-/// parabolas of 101 samples; those of more than four standard errors. Empty but on the free
-/// rig.
+/// parabolas of 101 samples; those of more than four standard errors, of independent samples and
+/// by the scatter from recording to recording. Empty but on the free rig.
 PeriodicAngle periodic_angle(const RecordingSet& set);
 
-/// A recording's channels with the periodic part kept out of the smoothing.
+/// A recording's channels with the periodic part kept out of the smoothing; on the free rig with a
+/// torsion that is smoothed as it is.
 Result<DriveChannels> channels_with(const RecordingSet& set, const Recording& recording,
                                     const PeriodicAngle& periodic);
 

@@ -72,6 +72,14 @@ struct ModeFit {
   double gain = 0.0;  ///< fall of the weighted sum of squares
 };
 
+// The measured torque of the transmission is an input of the motor equation, so that its noise is
+// in both prediction and residual; what the torsion equation predicts of it has none.
+ArrayXd torque_of(const Frame& frame, const ModelFit& model, Equation equation) {
+  const ArrayXd& u = model.prediction[index_of(equation)];
+  if (equation != Equation::motor || !frame.has(Equation::torsion)) return u;
+  return u - model.residual[index_of(Equation::torsion)] / frame.ratio;
+}
+
 ModeFit fitted(const Frame& frame, const ArrayXd& u, const ArrayXd& residual, const ArrayXd& weight,
                const Mode& mode) {
   const Answer answer = answer_of(frame, u, mode);
@@ -142,10 +150,9 @@ ModeFit refined(ModeFit best, const Range& range, const FitOfMode& fit) {
 // None that gains: its parts are zero.
 ModeFit best_mode(const Frame& frame, const ModelFit& model, Equation equation,
                   const ArrayXd& weight, unsigned threads) {
-  const std::size_t e = index_of(equation);
-  const auto fit = [&](const Mode& mode) {
-    return fitted(frame, model.prediction[e], model.residual[e], weight, mode);
-  };
+  const ArrayXd u = torque_of(frame, model, equation);
+  const ArrayXd& residual = model.residual[index_of(equation)];
+  const auto fit = [&](const Mode& mode) { return fitted(frame, u, residual, weight, mode); };
   const Range range(frame);
   const auto modes = first_guesses(range);
   std::vector<ModeFit> fits(modes.size());
@@ -154,9 +161,9 @@ ModeFit best_mode(const Frame& frame, const ModelFit& model, Equation equation,
   return best == fits.end() ? ModeFit{} : refined(*best, range, fit);
 }
 
-ArrayXd part_of(const Frame& frame, const ArrayXd& u, const ModeFit& fit) {
-  if (!(fit.gain > 0.0)) return ArrayXd::Zero(u.size());
-  const Answer answer = answer_of(frame, u, fit.mode);
+ArrayXd part_of(const Frame& frame, const ModelFit& model, Equation equation, const ModeFit& fit) {
+  if (!(fit.gain > 0.0)) return ArrayXd::Zero(frame.rows());
+  const Answer answer = answer_of(frame, torque_of(frame, model, equation), fit.mode);
   return fit.a * answer.place + fit.b * answer.speed;
 }
 
@@ -165,12 +172,11 @@ std::optional<Resonance> resonance_in(const Frame& frame, const Findings& final,
   const std::size_t e = index_of(equation);
   const double torque = frame.largest_torque(equation);
   const ModeFit whole = best_mode(frame, final.fit, equation, final.weight[e], limits.threads);
-  const ArrayXd part = part_of(frame, final.fit.prediction[e], whole) * frame.usable;
+  const ArrayXd part = part_of(frame, final.fit, equation, whole) * frame.usable;
   // What takes no more than a trifle where it is fitted need not be tried elsewhere.
   if (!(rms_on(part, frame.usable) > limits.trifle() * torque)) return std::nullopt;
   const auto by_fold = [&](const ModelFit& fold, const ArrayXd& weight) {
-    return part_of(frame, fold.prediction[e],
-                   best_mode(frame, fold, equation, weight, limits.threads));
+    return part_of(frame, fold, equation, best_mode(frame, fold, equation, weight, limits.threads));
   };
   const HoldoutProof h = proof_of_part(frame, final, proof, equation, by_fold);
   if (!is_proved_part(frame, h, equation, limits)) return std::nullopt;
