@@ -35,7 +35,7 @@ std::vector<double> even_knots(int count) {
   return knots;
 }
 
-// From the slowest tenth of the recordings to the fastest: g^-1 is steepest near rest.
+// From the slowest of the recordings, or a tenth of the fastest, on: g^-1 is steepest near rest.
 std::vector<double> rate_knots(const Frame& frame) {
   const double slow = std::clamp(frame.slow_rate / frame.rate_range, 1e-3, 0.1);
   std::vector<double> knots;

@@ -55,7 +55,7 @@ void Frame::measure_torsion() {
   for (Index i = 0; i < rows(); ++i) {
     if (usable[i] > 0.0) rates.push_back(std::abs(torsion_rate[i]));
   }
-  slow_rate = percentile(rates, 0.1);
+  slow_rate = percentile(rates, 0.02);
 }
 
 double Frame::fastest() const {

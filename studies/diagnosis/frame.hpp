@@ -83,7 +83,7 @@ struct Frame {
   double lowest = 0.0;         ///< torsion, of all rows
   double highest = 0.0;        ///< the same
   double rate_range = 0.0;     ///< largest |torsion rate|
-  double slow_rate = 0.0;      ///< tenth percentile of |torsion rate|
+  double slow_rate = 0.0;      ///< second percentile of |torsion rate|
   double speed_range = 0.0;    ///< largest |motor speed|
   double torque_range = 0.0;   ///< largest |torque|
   double duration = 0.0;       ///< longest recording

@@ -121,7 +121,7 @@ LawSpec modulation_law(const Frame& seen, std::span<const double> shape, double 
   return law;
 }
 
-// Its knots as the baseline's: steepest near rest, from the slowest tenth of the recordings on.
+// Its knots as the baseline's: steepest near rest.
 FittedLaw dissipative_law(const Frame& seen, const VectorXd& own) {
   const ArrayXd rate = points_on(seen.rate_range);
   const auto c = baseline_columns(moved(seen, ArrayXd::Zero(rate.size()), rate), Equation::torsion,

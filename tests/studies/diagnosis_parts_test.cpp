@@ -323,13 +323,40 @@ TEST(PeriodicAngle, IsNotMisledByARecordingWhoseTorsionJumps) {
   stairs.id = "stairs";
   auto& load = stairs.channels[Quantity::load_angle];
   for (std::size_t i = 0; i < load.size(); ++i) load[i] += (i / 150) % 2 == 0 ? 3e-4 : -3e-4;
-  RecordingSet alone = set;
-  alone.recordings = {stairs};
-  ASSERT_FALSE(periodic_angle(alone).terms.empty()) << "the jumps have to mislead";
   set.recordings.push_back(stairs);
   for (const auto& t : periodic_angle(set).terms) {
     EXPECT_LT(std::hypot(t.sine, t.cosine), 2e-5) << t.order;
   }
+}
+
+// An amplitude's standard error in n samples of noise s is s sqrt(2/n), at the motor N times that.
+TEST(PeriodicAngle, IsTenStandardErrorsOrMore) {
+  const double noise = 1e-5;
+  const Frame f = closed_form_frame();
+  const double error = f.ratio * noise * std::sqrt(2.0 / static_cast<double>(f.rows()));
+  const auto found = [&](double errors) {
+    return periodic_angle(wobbling({{{2.0, errors * error, 0.0}}}, noise).set).terms.size();
+  };
+  EXPECT_EQ(found(6.0), 0u);
+  EXPECT_EQ(found(30.0), 1u);
+}
+
+// Two encoders of different noise: each smoothed in its own way, their difference has what the ways
+// differ by, far more than what is left of the noise where the difference is smoothed.
+TEST(SmoothTorsion, IsAsGoodAsItsOwnNoiseAllows) {
+  const Frame f = closed_form_frame();
+  const auto set = wobbling({}, 2e-5).set;
+  const auto channels = channels_with(set, set.recordings.front(), {});
+  ASSERT_TRUE(channels);
+  double together = 0.0, apart = 0.0;
+  const std::size_t count = set.recordings.front().time.size();
+  for (std::size_t i = 50; i + 50 < count; ++i) {
+    const double truth = f.torsion_rate[static_cast<Index>(i)];
+    const double difference = channels->motor_speed[i] / f.ratio - channels->load_speed[i];
+    together += std::pow(channels->torsion_rate[i] - truth, 2);
+    apart += std::pow(difference - truth, 2);
+  }
+  EXPECT_LT(together, 0.5 * apart);
 }
 
 TEST(PeriodicAngle, KeepsItOutOfTheSmoothingAndPutsItBack) {
@@ -349,6 +376,13 @@ TEST(PeriodicAngle, KeepsItOutOfTheSmoothingAndPutsItBack) {
   }
   EXPECT_LT(speed, 0.01 * w.speed.abs().maxCoeff());
   EXPECT_LT(acceleration, 0.05 * w.acceleration.abs().maxCoeff());
+  const double ratio = w.set.constants.at("gear_ratio");
+  double torsion = 0.0;
+  for (std::size_t i = 50; i + 50 < count; ++i) {
+    const double difference = kept->motor_speed[i] / ratio - kept->load_speed[i];
+    torsion = std::max(torsion, std::abs(kept->torsion_rate[i] - difference));
+  }
+  EXPECT_LT(torsion, 0.01 * w.speed.abs().maxCoeff() / ratio);
 }
 
 }  // namespace

@@ -105,6 +105,23 @@ TEST_F(OneResonance, LeavesNoiseOnRowsHeldOut) {
   EXPECT_THAT(in_words(*one), testing::HasSubstr("resonance at"));
 }
 
+// Coloured noise of the measured torque is an input of the motor equation, and taken back by what
+// is left there, as if that answered it.
+TEST_F(OneResonance, IsNotNoiseOfTheMeasuredTorque) {
+  ArrayXd noise = drawn(frame_.rows());
+  for (Index r = 1; r < frame_.rows(); ++r) noise[r] += 0.8 * noise[r - 1];
+  noise *= frame_.torque_range / (10.0 * noise.abs().maxCoeff());
+  const std::size_t motor = index_of(Equation::motor);
+  frame_.equations = {Equation::torsion, Equation::motor};
+  frame_.motor_torque = torque_ / frame_.ratio;
+  final_.fit.prediction[motor] = (torque_ + noise) / frame_.ratio;
+  final_.fit.residual[motor] = (0.1 * drawn(frame_.rows()) - noise) / frame_.ratio;
+  final_.weight[motor] = frame_.ratio * final_.weight[index_of(Equation::torsion)];
+  final_.noise[motor].level = {kNoise / frame_.ratio, kNoise / frame_.ratio};
+  final_.noise[motor].colour = 1.0;
+  EXPECT_FALSE(found(noise));
+}
+
 TEST_F(OneResonance, IsNotInNoise) { EXPECT_FALSE(found(drawn(frame_.rows()))); }
 
 // Of a mode that answers nothing but one recording nothing is left on another.
