@@ -15,8 +15,9 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kStandsOut = 10.0;  // amplitude over its standard error
-constexpr Index kHalfWindow = 50;   // samples
+// Amplitude over its standard error: starts from one angle look like turns at up to 7.
+constexpr double kStandsOut = 10.0;
+constexpr Index kHalfWindow = 50;  // samples
 constexpr Index kFewestRows = 64;
 
 double ratio_of(const RecordingSet& set) {
@@ -133,7 +134,7 @@ PeriodicAngle periodic_angle(const RecordingSet& set) {
   for (std::size_t k = 0; k < orders.size(); ++k) {
     const Index at = 2 * static_cast<Index>(k);
     const double amplitude = common.b.segment<2>(at).norm();
-    // Counts of encoders are no independent samples: at one speed they may look like turns.
+    // What one recording has of its own, as the counts of its encoders at one speed, is no turn.
     const double error = std::sqrt(
         std::max(common.white(at, at), 0.5 * common.between.diagonal().segment<2>(at).sum()));
     if (amplitude < kStandsOut * error) continue;

@@ -341,6 +341,17 @@ TEST(PeriodicAngle, IsTenStandardErrorsOrMore) {
   EXPECT_EQ(found(30.0), 1u);
 }
 
+TEST(PeriodicAngle, IsNotWhatOneRecordingHasOfItsOwn) {
+  auto set = wobbling({}, 1e-6).set;
+  Recording other = wobbling(kError, 1e-6).set.recordings.front();
+  RecordingSet alone = set;
+  alone.recordings = {other};
+  ASSERT_FALSE(periodic_angle(alone).terms.empty());
+  other.id = "other";
+  set.recordings.push_back(other);
+  EXPECT_TRUE(periodic_angle(set).terms.empty());
+}
+
 // Two encoders of different noise: each smoothed in its own way, their difference has what the ways
 // differ by, far more than what is left of the noise where the difference is smoothed.
 TEST(SmoothTorsion, IsAsGoodAsItsOwnNoiseAllows) {
