@@ -13,7 +13,8 @@ using Eigen::Index;
 
 namespace {
 constexpr double kGravity = 9.80665;  // m/s2
-}
+constexpr double kSlowest = 0.02;     // of the rows: of a triangle the reversals
+}  // namespace
 
 std::string_view name_of(Equation equation) {
   switch (equation) {
@@ -55,7 +56,7 @@ void Frame::measure_torsion() {
   for (Index i = 0; i < rows(); ++i) {
     if (usable[i] > 0.0) rates.push_back(std::abs(torsion_rate[i]));
   }
-  slow_rate = percentile(rates, 0.02);
+  slow_rate = percentile(rates, kSlowest);
 }
 
 double Frame::fastest() const {

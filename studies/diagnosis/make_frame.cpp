@@ -9,6 +9,7 @@
 #include "diagnosis/model_columns.hpp"
 #include "diagnosis/periodic_angle.hpp"
 #include "diagnosis/repeats.hpp"
+#include "diagnosis/smoothed.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -41,11 +42,7 @@ struct Channels {
 
 // Smooth copy and rate of a torque, by the smoothing that motions get.
 void smooth_torque(const Recording& recording, const Series& torque, Series& smooth, Series& rate) {
-  Recording view;
-  view.id = recording.id;
-  view.time = recording.time;
-  view.channels[Quantity::torsion] = torque;
-  const auto channels = drive_channels(Rig::specimen, {}, view);
+  const auto channels = smoothed(recording, torque);
   if (!channels) return;
   smooth = channels->torsion;
   rate = channels->torsion_rate;

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
 
 #include "diagnosis/running_parabola.hpp"
+#include "diagnosis/smoothed.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -160,14 +162,11 @@ Result<void> smooth_torsion(double ratio, const Recording& recording, DriveChann
   const auto* motor = recording.find(Quantity::motor_angle);
   const auto* load = recording.find(Quantity::load_angle);
   if (motor == nullptr || load == nullptr) return {};
-  Recording view;
-  view.id = recording.id;
-  view.time = recording.time;
-  auto& torsion = view.channels[Quantity::torsion];
+  std::vector<double> torsion;
   for (std::size_t i = 0; i < motor->size(); ++i) {
     torsion.push_back((*motor)[i] / ratio - (*load)[i]);
   }
-  auto smooth = drive_channels(Rig::specimen, {}, view);
+  auto smooth = smoothed(recording, std::move(torsion));
   if (!smooth) return tl::unexpected(smooth.error());
   channels.torsion = std::move(smooth->torsion);
   channels.torsion_rate = std::move(smooth->torsion_rate);
