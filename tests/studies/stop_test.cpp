@@ -23,7 +23,7 @@ class AskedToStop : public Program {
 
   void expect_stops(const std::vector<std::string>& words, int signal) const {
     Call call{words};
-    call.limit = 0.5;
+    call.limit = 0.3;
     call.stop_signal = signal;
     const Ended ended = run_program(call);
     SCOPED_TRACE(words.front() + ": " + ended.said);
@@ -50,7 +50,7 @@ TEST_F(AskedToStop, EveryLongCommandStopsWithinTwoSeconds) {
   expect_stops({"compare", path("set"), "--estimators", "bouc_wen,trajectory_ceres", "--out",
                 out + "/compare"},
                SIGINT);
-  expect_stops({"diagnose", path("set"), "--out", out + "/diagnose"}, SIGTERM);
+  expect_stops({"diagnose", path("set"), "--rows", "all", "--out", out + "/diagnose"}, SIGTERM);
   expect_stops({"conceal", path("long.toml"), "--out", out + "/conceal"}, SIGINT);
   expect_stops({"trial", path("trial.toml"), "--jobs", "1", "--out", out + "/trial"}, SIGTERM);
   expect_stops({"selftest"}, SIGINT);
