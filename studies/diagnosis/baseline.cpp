@@ -19,7 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kElasticKnots = 7;
-constexpr double kLeastSlope = 0.6;  // of a firm spring, over its mean one
 constexpr int kDissipativeKnots = 11;
 constexpr std::size_t kTravelIntervals = 24;
 constexpr Index kDryWidths = 7;

@@ -9,6 +9,9 @@
 
 namespace flexspline::studies {
 
+/// Of a firm spring, over its mean slope.
+inline constexpr double kLeastSlope = 0.6;
+
 /// Columns of the baseline's linear parameters in one equation, and their lower bounds.
 struct BaselineColumns {
   Eigen::MatrixXd columns;

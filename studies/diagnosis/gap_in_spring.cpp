@@ -2,21 +2,29 @@
 
 #include <algorithm>
 
+#include "diagnosis/baseline.hpp"
 #include "diagnosis/law_fit.hpp"
 
 namespace flexspline::studies {
 namespace {
 
 constexpr double kMiddle = 0.1;
+constexpr int kSteps = 8;
+constexpr int kPasses = 2;
 constexpr double kSoft = 0.25;  // softer than any spring of a gear that a catalogue states
 
-bool is_a_gap(const Trial& trial) { return trial.cause.row->id == "backlash"; }
+bool is_a_gap(const ActiveCause& cause) { return cause.row->id == "backlash"; }
 
 // A gap whose name is not improbable.
 bool names_a_gap(const Selection& s, const Limits& limits) {
   return std::ranges::any_of(s.accepted, [&](const Accepted& a) {
-    return is_a_gap(a.trial) && !(a.probability < limits.probability);
+    return is_a_gap(a.trial.cause) && !(a.probability < limits.probability);
   });
+}
+
+// One that f may have a part of.
+bool winds_up_less(const ActiveCause& cause) {
+  return is_a_gap(cause) && cause.form->transform != nullptr;
 }
 
 // Whose elastic torque is f of the torsion.
@@ -45,15 +53,28 @@ double softness(const Frame& frame, const Selection& s) {
 }
 
 bool may_hide_a_gap(const Frame& frame, const Selection& s, const Limits& limits) {
-  if (names_a_gap(s, limits) || !has_spring(frame)) return false;
-  return softness(frame, s) < kSoft || std::ranges::any_of(s.last_field, [&](const Trial& trial) {
-           return is_half_hidden(trial, limits);
-         });
+  if (!has_spring(frame)) return false;
+  const bool named = names_a_gap(s, limits);
+  if (softness(frame, s) < (named ? kLeastSlope : kSoft)) return true;
+  return !named && std::ranges::any_of(s.last_field, [&](const Trial& trial) {
+    return is_half_hidden(trial, limits);
+  });
+}
+
+std::optional<OtherSpring> with_other_spring(const Frame& frame, const Selection& s) {
+  const DriveModel& model = s.final.fit.model;
+  if (!has_spring(frame) || std::ranges::none_of(model.causes, winds_up_less)) return std::nullopt;
+  OtherSpring other{frame, s.final};
+  other.frame.firm_spring = !frame.firm_spring;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (!refresh(other.frame, other.findings, kSteps)) return std::nullopt;
+  }
+  return other;
 }
 
 bool has_a_gap(const Selection& s) {
   return std::ranges::any_of(s.accepted, [](const Accepted& a) {
-    return is_a_gap(a.trial) || std::ranges::any_of(a.rivals, is_a_gap);
+    return is_a_gap(a.trial.cause) || std::ranges::any_of(a.rivals, is_a_gap, &Trial::cause);
   });
 }
 

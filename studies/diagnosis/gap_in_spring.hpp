@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/prove.hpp"
 
 namespace flexspline::studies {
@@ -16,6 +18,18 @@ double softness(const Frame& frame, const Selection& selection);
 /// springs of gears are, or a column of its equation that it counteracts gains all the same: f half
 /// hides something, and a firm one would not (docs/decisions/0039).
 bool may_hide_a_gap(const Frame& frame, const Selection& selection, const Limits& limits);
+
+/// The same causes beside the other spring, the frame with it and the model fitted anew.
+struct OtherSpring {
+  Frame frame;
+  Findings findings;
+};
+
+/// Where a gap of the torsion is among the causes: the model beside a firm spring in place of a
+/// free one, or the reverse. Of what is flat f may have any part that leaves it as firm as springs
+/// of gears are, so that the gap is as wide as with either, or between. Nothing where it does not
+/// converge.
+std::optional<OtherSpring> with_other_spring(const Frame& frame, const Selection& selection);
 
 /// True where a gap is among the causes or what may take their place.
 bool has_a_gap(const Selection& selection);

@@ -1,12 +1,13 @@
 #include "diagnosis/locate.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
+#include <unsupported/Eigen/FFT>
 
 #include "diagnosis/cause_columns.hpp"
 #include "diagnosis/coordinates.hpp"
@@ -154,34 +155,33 @@ class Scan {
     bool with_sign;  ///< of the motion
   };
 
-  // Of the multiples of a step, as long as there is a row for every period. From one to the next by
-  // a rotation, many times faster than sines, and over rows that stay in the cache.
-  Order strongest_order(const ArrayXd& direction, double step) const {
-    constexpr Index kTogether = 512;
-    const Index orders =
-        std::min(static_cast<Index>(kHighestOrder / step) - 1, kOfATurn * f_.rows());
-    const ArrayXd plain = residual_ * weight_.square();
-    Eigen::MatrixX4d sums = Eigen::MatrixX4d::Zero(orders, 4);
-    for (Index first = 0; first < f_.rows(); first += kTogether) {
-      const Index count = std::min(kTogether, f_.rows() - first);
-      const ArrayXd angle = f_.motor_angle.segment(first, count);
-      const ArrayXd y = plain.segment(first, count);
-      const ArrayXd directed = y * direction.segment(first, count);
-      const ArrayXd turn_s = (step * angle).sin(), turn_c = (step * angle).cos();
-      ArrayXd s = (2.0 * step * angle).sin(), c = (2.0 * step * angle).cos(), next(count);
-      for (Index k = 0; k < orders; ++k) {
-        sums.row(k) += Eigen::RowVector4d((s * y).sum(), (c * y).sum(), (s * directed).sum(),
-                                          (c * directed).sum());
-        next = s * turn_c + c * turn_s;
-        c = c * turn_c - s * turn_s;
-        s.swap(next);
-      }
+  // Of rows by the motor's angle, at every multiple of a step in orders: a Fourier transform over
+  // bins of the angle, eight or more to the shortest period.
+  Eigen::VectorXd power_by_order(const ArrayXd& y, double step, Index orders) const {
+    const auto bins = static_cast<Index>(std::bit_ceil(static_cast<std::size_t>(8 * orders)));
+    const ArrayXd place = (f_.motor_angle - f_.motor_angle.minCoeff()) *
+                          (step * static_cast<double>(bins) / (2.0 * std::numbers::pi));
+    Eigen::VectorXd binned = Eigen::VectorXd::Zero(bins);
+    for (Index r = 0; r < y.size(); ++r) {
+      const auto k = static_cast<Index>(place[r]);
+      const double part = place[r] - static_cast<double>(k);
+      binned[k] += (1.0 - part) * y[r];
+      binned[k + 1] += part * y[r];
     }
+    Eigen::VectorXcd spectrum;
+    Eigen::FFT<double>().fwd(spectrum, binned);
+    return spectrum.head(orders).cwiseAbs2();
+  }
+
+  // Of the multiples of a step from the second on, as long as there is a row for every period.
+  Order strongest_order(const ArrayXd& direction, double step) const {
+    const Index orders =
+        std::min(static_cast<Index>(kHighestOrder / step), kOfATurn * f_.rows()) + 1;
+    const ArrayXd plain = residual_ * weight_.square();
     Eigen::MatrixX2d power(orders, 2);
-    power << sums.leftCols<2>().rowwise().squaredNorm(),
-        sums.rightCols<2>().rowwise().squaredNorm();
+    power << power_by_order(plain, step, orders), power_by_order(plain * direction, step, orders);
     Index order = 0, sign = 0;
-    power.maxCoeff(&order, &sign);
+    power.bottomRows(orders - 2).maxCoeff(&order, &sign);
     return {static_cast<double>(order + 2) * step, sign == 1};
   }
 

@@ -12,6 +12,7 @@
 #include "diagnosis/confirm.hpp"
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/folds.hpp"
+#include "diagnosis/gap_in_spring.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -105,6 +106,16 @@ std::pair<Index, Index> judged(const Frame& frame, const Segment& segment) {
   return {first, last};
 }
 
+// So that the intervals hold what others do.
+void widen(const std::vector<CauseParameter>& others, std::vector<CauseParameter>& parameters) {
+  for (CauseParameter& p : parameters) {
+    const auto other = std::ranges::find(others, p.name, &CauseParameter::name);
+    if (other == others.end() || !std::isfinite(other->ci95_lower)) continue;
+    p.ci95_lower = std::min(p.ci95_lower, other->ci95_lower);
+    p.ci95_upper = std::max(p.ci95_upper, other->ci95_upper);
+  }
+}
+
 }  // namespace
 
 double p_value(double chi_square, int parameters) {
@@ -137,6 +148,9 @@ std::vector<std::string> spelled_parts(const Selection& s) {
 std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const Proof& proof) {
   std::vector<Cause> list;
   const CauseSpread spread(frame, s.final);
+  const auto other = with_other_spring(frame, s);
+  std::optional<CauseSpread> beside_other;
+  if (other) beside_other.emplace(other->frame, other->findings);
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const Accepted& a = s.accepted[i];
     const std::size_t at = s.immaterial.size() + i;
@@ -154,6 +168,7 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.size_of = size.of;
     cause.equation = a.trial.cause.form->equation;
     cause.parameters = spread.parameters(at);
+    if (beside_other) widen(beside_other->parameters(at), cause.parameters);
     cause.alternatives = alternatives_of(a, s);
     cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;

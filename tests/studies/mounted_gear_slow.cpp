@@ -159,6 +159,42 @@ TEST(GapInSpring, IsToldWhereAFirmSpringAndAGapPredictAsWell) {
   EXPECT_FALSE(tells_a_gap(named, free_f, firm, {})) << "it predicts worse";
 }
 
+// The half that a free f took of the gap is the gap's beside a firm one.
+TEST(GapInSpring, IsFittedBesideEitherSpring) {
+  MountedGear gear;
+  gear.friction = 0.0;
+  gear.half_gap = 4e-3;
+  const Frame frame = *frame_of(gear);
+  const auto row = std::ranges::find(causes(), std::string_view("backlash"), &CauseRow::id);
+  Selection s = with_free_f(gear);
+  EXPECT_FALSE(with_other_spring(frame, s)) << "no gap is named";
+  Accepted gap;
+  gap.trial.cause = {&*row, &row->forms.front(), {0.5 * gear.half_gap}};
+  const auto fit = extended(frame, s.final, gap.trial.cause, 0);
+  ASSERT_TRUE(fit) << fit.error().message();
+  s.final.fit = *fit;
+  s.accepted = {gap};
+  EXPECT_TRUE(may_hide_a_gap(frame, s, {})) << "f is flat in its middle, the gap named or not";
+  const auto firm = with_other_spring(frame, s);
+  ASSERT_TRUE(firm);
+  EXPECT_TRUE(firm->frame.firm_spring);
+  EXPECT_NEAR(firm->findings.fit.model.causes.front().shape.front(), gear.half_gap,
+              0.01 * gear.half_gap);
+}
+
+// Beside hysteresis that no sum of a few stops follows exactly, f takes two thirds of the gap.
+TEST(GapInSpring, HasAnIntervalThatTellsWhatFMayHaveOfIt) {
+  MountedGear gear;
+  gear.half_gap = 3e-3;
+  const Diagnosis d = diagnosed(gear.recordings());
+  const auto gap = std::ranges::find(d.causes, "backlash", &Cause::effect);
+  ASSERT_NE(gap, d.causes.end()) << d.says;
+  const CauseParameter& width = gap->parameters.front();
+  EXPECT_EQ(width.name, "half_gap");
+  EXPECT_LT(width.ci95_lower, 0.5 * gear.half_gap);
+  EXPECT_GT(width.ci95_upper, 0.9 * gear.half_gap);
+}
+
 TEST(GapInSpring, MayStandBehindACause) {
   const auto of = [](std::string_view id) {
     Trial trial;

@@ -10,7 +10,7 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
-constexpr double kRounding = 0.1;  // of the gap
+constexpr double kRounding = 0.02;  // of the gap: its flanks meet, they do not yield
 
 std::vector<Shape> gap(const Frame& f) {
   return {{.name = "half_gap",
