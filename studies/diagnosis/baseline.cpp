@@ -224,4 +224,11 @@ BaselineColumns baseline_columns(const Frame& frame, Equation equation,
   return c;
 }
 
+ArrayXd told_torque(const Frame& frame) {
+  const MatrixXd x = baseline_columns(frame, Equation::torsion, std::vector(3, 0.0)).columns;
+  const MatrixXd rows = frame.usable.matrix().asDiagonal() * x;
+  const Eigen::VectorXd torque = (frame.torque * frame.usable).matrix();
+  return (x * rows.colPivHouseholderQr().solve(torque)).array();
+}
+
 }  // namespace flexspline::studies

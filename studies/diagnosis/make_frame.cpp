@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/baseline.hpp"
 #include "diagnosis/middle.hpp"
 #include "diagnosis/model_columns.hpp"
 #include "diagnosis/periodic_angle.hpp"
@@ -138,6 +139,7 @@ class FrameMaker {
     leave_out_sticking();
     leave_out_starts();
     leave_out_hidden_motor();
+    if (frame_.has(Equation::torsion)) frame_.told_torque = told_torque(frame_);
     for (Segment& s : frame_.segments) {
       s.repeat = repeat_of(frame_.motor_angle.segment(s.first, s.count));
     }

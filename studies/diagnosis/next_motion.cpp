@@ -38,8 +38,8 @@ Frame empty_like(const Frame& like, Index rows) {
   for (ArrayXd* channel :
        {&f.motor_angle, &f.motor_speed, &f.motor_acceleration, &f.load_angle, &f.load_speed,
         &f.load_acceleration, &f.torsion, &f.torsion_rate, &f.torsion_acceleration, &f.torque,
-        &f.smooth_torque, &f.torque_rate, &f.gravity, &f.motor_torque, &f.smooth_motor_torque,
-        &f.motor_torque_rate}) {
+        &f.smooth_torque, &f.told_torque, &f.torque_rate, &f.gravity, &f.motor_torque,
+        &f.smooth_motor_torque, &f.motor_torque_rate}) {
     channel->setZero(rows);
   }
   f.motor_bandwidth.resize(0);
@@ -52,7 +52,7 @@ Frame empty_like(const Frame& like, Index rows) {
 void take_torques(Frame& f, const DriveModel& model) {
   if (f.has(Equation::torsion)) {
     f.torque = evaluate(f, model, reference_of(f, model)).prediction[index_of(Equation::torsion)];
-    f.smooth_torque = f.torque;
+    f.smooth_torque = f.told_torque = f.torque;
     f.torque_rate = rate_of(f, f.torque);
   }
   if (!f.has(Equation::motor)) return;

@@ -69,7 +69,8 @@ Frame in_true_torque(Frame frame, const TorqueGains& gains) {
   for (auto* torque : {&frame.motor_torque, &frame.smooth_motor_torque, &frame.motor_torque_rate}) {
     *torque *= gains.motor;
   }
-  for (auto* torque : {&frame.torque, &frame.smooth_torque, &frame.torque_rate}) {
+  for (auto* torque :
+       {&frame.torque, &frame.smooth_torque, &frame.told_torque, &frame.torque_rate}) {
     *torque *= gains.sensor;
   }
   return frame;

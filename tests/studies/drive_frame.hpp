@@ -76,7 +76,7 @@ inline Frame closed_form_frame(Eigen::Index rows = 6000, double interval = 2e-3)
   f.motor_acceleration = f.ratio * (f.torsion_acceleration + f.load_acceleration);
   Eigen::ArrayXd unused;
   put(wave(phase_time, 40.0, 1.4), f.torque, f.torque_rate, unused);
-  f.smooth_torque = f.torque;
+  f.smooth_torque = f.told_torque = f.torque;
   put(wave(phase_time, 1.2, 1.9), f.motor_torque, f.motor_torque_rate, unused);
   f.smooth_motor_torque = f.motor_torque;
   f.usable = Eigen::ArrayXd::Ones(2 * half);

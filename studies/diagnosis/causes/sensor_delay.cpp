@@ -66,9 +66,15 @@ void behind_a_filter(Frame& f, Values shape) {
   f.torque_lag += shape[1];
 }
 
-// The smooth part as it is d later, with the noise of the sample itself.
-void torque_of_now(Frame& f, Values shape) {
-  f.torque += later(f, f.smooth_torque, shape[0]) - f.smooth_torque;
+// The same where torsion and load are compared with it; the motor feels what it shows d later. Of
+// that as much as the torsion tells: smoothing keeps some of a noise that has a colour, and what
+// has of that noise would lower it.
+void drive_of_then(Frame& f, Values shape) {
+  const double d = shape[0];
+  f.motor_torque -= (later(f, f.told_torque, d) - f.told_torque) / f.ratio;
+  motion_of_then(f, shape);
+  f.load_speed -= d * f.load_acceleration;
+  f.load_acceleration = later(f, f.load_acceleration, -d);
 }
 
 void motor_torque_late(Frame& f, Values shape) { f.motor_torque += shape[0] * f.motor_torque_rate; }
@@ -119,7 +125,7 @@ CauseRow describe_sensor_delay() {
                      .rigs = kDrives,
                      .at = {Equation::torsion, Equation::load, Equation::motor},
                      .shapes = delay,
-                     .transform = torque_of_now,
+                     .transform = drive_of_then,
                      .start = small,
                      .counterpart = torque_late},
                     {.equation = "tau_m,recorded(t) = tau_m(t - d)",
