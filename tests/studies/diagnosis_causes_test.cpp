@@ -329,5 +329,35 @@ TEST(MotorTorqueRipple, OfAChannelHasTheChannelsZero) {
   EXPECT_EQ(names(diagnosed(made.recordings)), std::vector<std::string>{"motor_torque_ripple"});
 }
 
+// A sensor's noise that has a colour is in its smoothed torque, too: to undo a delay must not take
+// any of it out, or every delay would fit better than none.
+TEST(SensorDelay, IsUndoneWithoutTheNoiseOfTheTorque) {
+  Frame frame = closed_form_frame();
+  const ArrayXd noise = 5.0 * (7.0 * frame.time).sin() * (31.0 * frame.clock).cos();
+  frame.torque += noise;
+  frame.smooth_torque += noise;
+  const CauseRow& row =
+      *std::ranges::find(causes(), std::string_view("sensor_delay"), &CauseRow::id);
+  const auto forms = forms_on(row, frame);
+  const auto form = std::ranges::find_if(
+      forms, [](const CauseForm* one) { return one->at.front() == Equation::torsion; });
+  ASSERT_NE(form, forms.end());
+  constexpr double kDelay = 4e-3;  // two rows
+  Frame then = frame;
+  (*form)->transform(then, std::vector{kDelay});
+  EXPECT_TRUE((then.torque == frame.torque).all());
+  // What the motor felt is what the sensor shows d later.
+  const ArrayXd felt = frame.told_torque - frame.ratio * (then.motor_torque - frame.motor_torque);
+  const Eigen::Index n = frame.segments.front().count - 2;
+  EXPECT_LT((felt.head(n) - frame.told_torque.segment(2, n)).abs().maxCoeff(),
+            1e-3 * frame.torque_range);
+  // Torsion and load are those of d ago, to the second and the first order in d.
+  EXPECT_LT((then.torsion.segment(2, n) - frame.torsion.head(n)).abs().maxCoeff(),
+            1e-3 * frame.torsion_range);
+  EXPECT_LT(
+      (then.load_acceleration.segment(2, n) - frame.load_acceleration.head(n)).abs().maxCoeff(),
+      1e-3 * frame.load_acceleration.abs().maxCoeff());
+}
+
 }  // namespace
 }  // namespace flexspline::studies
