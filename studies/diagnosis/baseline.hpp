@@ -28,9 +28,10 @@ Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape);
 
-/// The transmitted torque as far as the torsion and its rate tell it: its regression on the
-/// baseline's columns, without their bounds. Free of the sensor's noise, of any colour, which
-/// smoothing keeps in part.
+/// The transmitted torque as far as the torsion and its rate tell it, Nm by row: its least squares
+/// over usable rows on the columns of the torsion equation's baseline (h = 1, zero as it is),
+/// without their bounds; hysteresis that remembers its way is not in it. Free of the sensor's
+/// noise, of any colour, which smoothing keeps in part.
 Eigen::ArrayXd told_torque(const Frame& frame);
 
 /// What baseline_columns() looks at, of some rows alone. Not for a torque behind a filter, which

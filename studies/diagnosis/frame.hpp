@@ -73,7 +73,7 @@ struct Frame {
   Eigen::ArrayXd torsion, torsion_rate, torsion_acceleration;
   Eigen::ArrayXd torque;                      ///< measured, across the transmission
   Eigen::ArrayXd smooth_torque, torque_rate;  ///< the same, smoothed
-  Eigen::ArrayXd told_torque;                 ///< the same, as far as the torsion tells it
+  Eigen::ArrayXd told_torque;                 ///< as the torsion tells it: told_torque(); of drives
   Eigen::ArrayXd velocity;                    ///< recorded, of the output; NaN where none was
   Eigen::ArrayXd gravity;                     ///< of a servo's pendulum, m g l sin(theta_l)
   Eigen::ArrayXd motor_torque;                ///< recorded, at the motor shaft

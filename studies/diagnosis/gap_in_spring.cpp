@@ -23,7 +23,7 @@ bool names_a_gap(const Selection& s, const Limits& limits) {
 }
 
 // One that f may have a part of.
-bool winds_up_less(const ActiveCause& cause) {
+bool shares_with_f(const ActiveCause& cause) {
   return is_a_gap(cause) && cause.form->transform != nullptr;
 }
 
@@ -61,13 +61,17 @@ bool may_hide_a_gap(const Frame& frame, const Selection& s, const Limits& limits
   });
 }
 
-std::optional<OtherSpring> with_other_spring(const Frame& frame, const Selection& s) {
-  const DriveModel& model = s.final.fit.model;
-  if (!has_spring(frame) || std::ranges::none_of(model.causes, winds_up_less)) return std::nullopt;
+bool has_shared_gap(const Frame& frame, const Selection& s) {
+  return has_spring(frame) && std::ranges::any_of(s.final.fit.model.causes, shares_with_f);
+}
+
+Result<OtherSpring> with_other_spring(const Frame& frame, const Selection& s) {
   OtherSpring other{frame, s.final};
   other.frame.firm_spring = !frame.firm_spring;
   for (int pass = 0; pass < kPasses; ++pass) {
-    if (!refresh(other.frame, other.findings, kSteps)) return std::nullopt;
+    if (auto fitted = refresh(other.frame, other.findings, kSteps); !fitted) {
+      return tl::unexpected(fitted.error());
+    }
   }
   return other;
 }

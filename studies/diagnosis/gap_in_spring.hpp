@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "diagnosis/prove.hpp"
 
 namespace flexspline::studies {
@@ -25,11 +23,13 @@ struct OtherSpring {
   Findings findings;
 };
 
-/// Where a gap of the torsion is among the causes: the model beside a firm spring in place of a
-/// free one, or the reverse. Of what is flat f may have any part that leaves it as firm as springs
-/// of gears are, so that the gap is as wide as with either, or between. Nothing where it does not
-/// converge.
-std::optional<OtherSpring> with_other_spring(const Frame& frame, const Selection& selection);
+/// True where a gap of the torsion is among the causes, of which f may have a part.
+bool has_shared_gap(const Frame& frame, const Selection& selection);
+
+/// The model beside a firm spring in place of a free one, or the reverse. Of what is flat f may
+/// have any part that leaves it as firm as springs of gears are, so that a gap is as wide as with
+/// either, or between (docs/decisions/0044). Errors: numerics, where it cannot be fitted.
+Result<OtherSpring> with_other_spring(const Frame& frame, const Selection& selection);
 
 /// True where a gap is among the causes or what may take their place.
 bool has_a_gap(const Selection& selection);

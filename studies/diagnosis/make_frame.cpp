@@ -139,7 +139,8 @@ class FrameMaker {
     leave_out_sticking();
     leave_out_starts();
     leave_out_hidden_motor();
-    if (frame_.has(Equation::torsion)) frame_.told_torque = told_torque(frame_);
+    if (frame_.rig == Rig::locked || frame_.rig == Rig::free)
+      frame_.told_torque = told_torque(frame_);
     for (Segment& s : frame_.segments) {
       s.repeat = repeat_of(frame_.motor_angle.segment(s.first, s.count));
     }

@@ -106,15 +106,51 @@ std::pair<Index, Index> judged(const Frame& frame, const Segment& segment) {
   return {first, last};
 }
 
-// So that the intervals hold what others do.
+// So that the intervals hold those of others, or where these have none their values.
 void widen(const std::vector<CauseParameter>& others, std::vector<CauseParameter>& parameters) {
   for (CauseParameter& p : parameters) {
     const auto other = std::ranges::find(others, p.name, &CauseParameter::name);
-    if (other == others.end() || !std::isfinite(other->ci95_lower)) continue;
-    p.ci95_lower = std::min(p.ci95_lower, other->ci95_lower);
-    p.ci95_upper = std::max(p.ci95_upper, other->ci95_upper);
+    if (other == others.end()) continue;
+    const bool told = std::isfinite(other->ci95_lower);
+    p.ci95_lower = std::min(p.ci95_lower, told ? other->ci95_lower : other->value);
+    p.ci95_upper = std::max(p.ci95_upper, told ? other->ci95_upper : other->value);
   }
 }
+
+void leave_untold(std::vector<CauseParameter>& parameters) {
+  for (CauseParameter& p : parameters) {
+    p.ci95_lower = p.ci95_upper = kNotComputed;
+    p.no_interval = "the model beside the other spring, free or firm, cannot be fitted";
+  }
+}
+
+/// Parameters of causes with their intervals: where f may have a part of a gap, beside either
+/// spring.
+class BothSprings {
+ public:
+  BothSprings(const Frame& frame, const Selection& s) : spread_(frame, s.final) {
+    if (!has_shared_gap(frame, s)) return;
+    other_ = with_other_spring(frame, s);
+    if (*other_) beside_.emplace((*other_)->frame, (*other_)->findings);
+  }
+
+  const CauseSpread& spread() const { return spread_; }
+
+  std::vector<CauseParameter> parameters(std::size_t cause) const {
+    auto list = spread_.parameters(cause);
+    if (beside_) {
+      widen(beside_->parameters(cause), list);
+    } else if (other_) {
+      leave_untold(list);
+    }
+    return list;
+  }
+
+ private:
+  CauseSpread spread_;
+  std::optional<Result<OtherSpring>> other_;
+  std::optional<CauseSpread> beside_;
+};
 
 }  // namespace
 
@@ -147,17 +183,14 @@ std::vector<std::string> spelled_parts(const Selection& s) {
 
 std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const Proof& proof) {
   std::vector<Cause> list;
-  const CauseSpread spread(frame, s.final);
-  const auto other = with_other_spring(frame, s);
-  std::optional<CauseSpread> beside_other;
-  if (other) beside_other.emplace(other->frame, other->findings);
+  const BothSprings springs(frame, s);
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const Accepted& a = s.accepted[i];
     const std::size_t at = s.immaterial.size() + i;
     Cause cause;
     cause.effect = a.trial.cause.row->id;
     const SizeOf size = size_of(frame, s.final.fit.model, s.final.reference, at);
-    const Spread sizes = spread.size(at, [&](const DriveModel& model) {
+    const Spread sizes = springs.spread().size(at, [&](const DriveModel& model) {
       return size_of(frame, model, s.final.reference, at).size;
     });
     cause.size_fraction = size.fraction;
@@ -167,8 +200,7 @@ std::vector<Cause> spelled_causes(const Frame& frame, const Selection& s, const 
     cause.unit = "Nm";
     cause.size_of = size.of;
     cause.equation = a.trial.cause.form->equation;
-    cause.parameters = spread.parameters(at);
-    if (beside_other) widen(beside_other->parameters(at), cause.parameters);
+    cause.parameters = springs.parameters(at);
     cause.alternatives = alternatives_of(a, s);
     cause.evidence.score_p_value = p_value(a.trial.gain, a.trial.parameters);
     cause.evidence.delta_bic = -a.trial.net_gain;

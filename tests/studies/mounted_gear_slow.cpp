@@ -167,7 +167,7 @@ TEST(GapInSpring, IsFittedBesideEitherSpring) {
   const Frame frame = *frame_of(gear);
   const auto row = std::ranges::find(causes(), std::string_view("backlash"), &CauseRow::id);
   Selection s = with_free_f(gear);
-  EXPECT_FALSE(with_other_spring(frame, s)) << "no gap is named";
+  EXPECT_FALSE(has_shared_gap(frame, s)) << "no gap is named";
   Accepted gap;
   gap.trial.cause = {&*row, &row->forms.front(), {0.5 * gear.half_gap}};
   const auto fit = extended(frame, s.final, gap.trial.cause, 0);
@@ -175,8 +175,9 @@ TEST(GapInSpring, IsFittedBesideEitherSpring) {
   s.final.fit = *fit;
   s.accepted = {gap};
   EXPECT_TRUE(may_hide_a_gap(frame, s, {})) << "f is flat in its middle, the gap named or not";
+  EXPECT_TRUE(has_shared_gap(frame, s));
   const auto firm = with_other_spring(frame, s);
-  ASSERT_TRUE(firm);
+  ASSERT_TRUE(firm) << firm.error().message();
   EXPECT_TRUE(firm->frame.firm_spring);
   EXPECT_NEAR(firm->findings.fit.model.causes.front().shape.front(), gear.half_gap,
               0.01 * gear.half_gap);

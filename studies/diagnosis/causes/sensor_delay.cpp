@@ -66,9 +66,9 @@ void behind_a_filter(Frame& f, Values shape) {
   f.torque_lag += shape[1];
 }
 
-// The same where torsion and load are compared with it; the motor feels what it shows d later. Of
-// that as much as the torsion tells: smoothing keeps some of a noise that has a colour, and what
-// has of that noise would lower it.
+// Of a drive torsion and load are compared with it as they were d ago, and the motor feels what it
+// shows d later. Of that as much as the torsion tells: a smoothed torque keeps some of a noise that
+// has a colour, and what is moved against itself is less.
 void drive_of_then(Frame& f, Values shape) {
   const double d = shape[0];
   f.motor_torque -= (later(f, f.told_torque, d) - f.told_torque) / f.ratio;
