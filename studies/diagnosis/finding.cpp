@@ -83,6 +83,12 @@ Result<std::optional<Finding>> with_gap(const Finding& free_f, const Limits& lim
       .map([](Finding&& finding) { return std::optional(std::move(finding)); });
 }
 
+// A gap that is known without needs no stretch left out to be wider: what a model cannot follow it
+// does not predict as well.
+bool is_wider_by_leaving_out(const Finding& free_f, const Finding& firm) {
+  return has_a_gap(free_f.selection) && firm.frame.incidents.size() > free_f.frame.incidents.size();
+}
+
 std::string gap_in_words(const Finding& free_f, const Finding& gap) {
   const HoldoutProof& h = free_f.proof.holdout;
   return fmt::format(
@@ -101,7 +107,8 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
   if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection, limits)) return free_f;
   auto gap = with_gap(*free_f, limits, progress);
   if (!gap) return tl::unexpected(gap.error());
-  if (!*gap || !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof, limits)) {
+  if (!*gap || is_wider_by_leaving_out(*free_f, **gap) ||
+      !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof, limits)) {
     return free_f;
   }
   (*gap)->frame.notes.push_back(gap_in_words(*free_f, **gap));
