@@ -28,6 +28,11 @@ std::string_view name_of(Equation equation) {
   return "motor";
 }
 
+ArrayXd Frame::rows_of(Equation equation) const {
+  if (equation != Equation::motor || direction_known.size() == 0) return usable;
+  return usable * direction_known;
+}
+
 double Frame::largest_torque(Equation equation) const {
   return equation == Equation::motor ? (motor_torque.abs() * usable).maxCoeff() : torque_range;
 }

@@ -219,7 +219,7 @@ class Scans {
         Equation equation)
       : frame_(frame),
         corners_(corners),
-        residual_(findings.fit.residual[index_of(equation)] * frame.usable),
+        residual_(findings.fit.residual[index_of(equation)] * frame.rows_of(equation)),
         weighted_(residual_ * findings.weight[index_of(equation)]),
         at_corners_(usual_size(weighted_ * corner_rows())) {}
 

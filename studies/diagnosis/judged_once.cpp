@@ -83,7 +83,7 @@ Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Finding
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
     findings.noise[e].level = levels_on(frame, searched, findings.noise[e].level);
-    findings.weight[e] = weights_of(frame, findings.noise[e].level);
+    findings.weight[e] = weights_of(frame, equation, findings.noise[e].level);
     findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
   }
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -138,11 +138,12 @@ HoldoutProof proof_on(const Frame& all, const ArrayXd& held, Equation equation,
   const Frame frame = judged_frame(all, held);
   HoldoutProof p;
   p.nested = true;
-  p.rmse_before = rms_on(before, held);
-  p.rmse_after = rms_on(after, held);
+  const ArrayXd rows = frame.rows_of(equation);
+  p.rmse_before = rms_on(before, rows);
+  p.rmse_after = rms_on(after, rows);
   p.ratio = p.rmse_after / p.rmse_before;
-  p.noise_floor = noise_on(frame, noise_levels(frame, after), held);
-  resample_ratio(frame, held, before, after, p);
+  p.noise_floor = noise_on(frame, noise_levels(frame, (rows > 0.0).select(after, kNotComputed)), rows);
+  resample_ratio(frame, rows, before, after, p);
   if (equation != Equation::motor) return p;
   for (double* value : {&p.rmse_before, &p.rmse_after, &p.noise_floor}) *value *= all.ratio;
   return p;

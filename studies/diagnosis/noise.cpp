@@ -6,6 +6,7 @@
 #include "diagnosis/middle.hpp"
 #include "diagnosis/repeats.hpp"
 #include "diagnosis/running_parabola.hpp"
+#include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -15,55 +16,57 @@ using Eigen::Index;
 
 constexpr Index kHalfNarrow = 25;
 constexpr Index kHalfWide = 80;
+constexpr Index kFewestFast = 9;
 constexpr Index kLags = 40;
 constexpr double kAlike = 0.5;       // autocorrelation
 constexpr Index kFewestRows = 1000;  // of a recording
 constexpr Index kMostLags = 400;
 
-// Residual less running parabola, where the window fits; segment by segment.
+// A line across rows that do not count, level at the ends.
+ArrayXd bridged(ArrayXd x) {
+  Index known = -1;
+  for (Index r = 0; r < x.size(); ++r) {
+    if (std::isnan(x[r])) continue;
+    const double from = known < 0 ? x[r] : x[known];
+    for (Index k = known + 1; k < r; ++k) {
+      x[k] = from + (x[r] - from) * static_cast<double>(k - known) / static_cast<double>(r - known);
+    }
+    known = r;
+  }
+  for (Index k = known + 1; k < x.size(); ++k) x[k] = known < 0 ? 0.0 : x[known];
+  return x;
+}
+
+// Residual less running parabola, segment by segment; NaN where the window does not fit or the row
+// does not count.
 std::vector<ArrayXd> fast_part(const Frame& frame, const ArrayXd& residual, Index half) {
   const ArrayXd weights = parabola_weights(half);
   std::vector<ArrayXd> parts;
   for (const Segment& s : frame.segments) {
-    std::vector<double> part;
-    for (Index r = s.first + half; r + half < s.first + s.count; ++r) {
-      if (frame.usable.segment(r - half, 2 * half + 1).minCoeff() == 0.0) continue;
-      part.push_back(residual[r] - (weights * residual.segment(r - half, 2 * half + 1)).sum());
+    const ArrayXd whole = bridged(residual.segment(s.first, s.count));
+    ArrayXd part = ArrayXd::Constant(s.count, kNotComputed);
+    for (Index r = half; r + half < s.count; ++r) {
+      const bool there = frame.usable.segment(s.first + r - half, 2 * half + 1).minCoeff() > 0.0;
+      if (!there || std::isnan(residual[s.first + r])) continue;
+      part[r] = whole[r] - (weights * whole.segment(r - half, 2 * half + 1)).sum();
     }
-    parts.push_back(Eigen::Map<ArrayXd>(part.data(), static_cast<Index>(part.size())));
+    parts.push_back(std::move(part));
   }
   return parts;
 }
 
-// Of the fast part about a wide parabola, lags 1 to kLags; zero where nothing is left.
-ArrayXd autocorrelation(const Frame& frame, const ArrayXd& residual) {
-  double variance = 0.0;
-  ArrayXd product = ArrayXd::Zero(kLags);
-  for (const ArrayXd& part : fast_part(frame, residual, kHalfWide)) {
-    if (part.size() <= kLags) continue;
-    variance += part.square().sum();
-    for (Index k = 1; k <= kLags; ++k) {
-      const Index n = part.size() - k;
-      product[k - 1] += (part.head(n) * part.tail(n)).sum();
-    }
-  }
-  if (!(variance > 0.0)) return product;
-  // The parabola itself takes its middle weight from every autocorrelation.
-  return product / variance + parabola_weights(kHalfWide)[kHalfWide];
-}
-
-/// Autocorrelation of what is not repeated, all recordings together.
-class RepeatedNoise {
+/// Autocorrelation of noise, all recordings together; NaN rows are not there.
+class Autocorrelation {
  public:
-  RepeatedNoise(const Frame& frame, const ArrayXd& residual) {
-    for (const ArrayXd& part : unrepeated(frame, residual)) {
+  explicit Autocorrelation(const std::vector<ArrayXd>& parts) {
+    for (const ArrayXd& part : parts) {
       const ArrayXd there = part.isNaN().select(ArrayXd::Zero(part.size()), 1.0);
       if (there.sum() < static_cast<double>(kFewestCompared)) continue;
       parts_.push_back({part.isNaN().select(0.0, part), there});
     }
   }
 
-  /// False where no recording repeats, or nothing but the same comes again.
+  /// False where nothing is there, or no noise.
   bool is_known() const { return product(0) > 0.0; }
   double at(Index lag) const { return product(lag) / product(0); }
 
@@ -87,9 +90,18 @@ class RepeatedNoise {
   std::vector<Part> parts_;
 };
 
+// Of the fast part about a wide parabola, lags 1 to kLags; zero where nothing is left.
+ArrayXd fast_autocorrelation(const Frame& frame, const ArrayXd& residual) {
+  const Autocorrelation fast(fast_part(frame, residual, kHalfWide));
+  if (!fast.is_known()) return ArrayXd::Zero(kLags);
+  // The parabola itself takes its middle weight from every autocorrelation.
+  const double taken = parabola_weights(kHalfWide)[kHalfWide];
+  return ArrayXd::NullaryExpr(kLags, [&](Index k) { return fast.at(k + 1) + taken; });
+}
+
 // Sum of autocorrelations, by pairs while these are positive (Geyer 1992, initial positive
 // sequence): as many lags as the noise is long.
-double long_run(const RepeatedNoise& noise) {
+double long_run(const Autocorrelation& noise) {
   double sum = -1.0;
   for (Index lag = 0; lag < kMostLags; lag += 2) {
     const double pair = noise.at(lag) + noise.at(lag + 1);
@@ -99,12 +111,12 @@ double long_run(const RepeatedNoise& noise) {
   return std::max(1.0, sum);
 }
 
-double rms_of(const ArrayXd& part) {
+double rms_of(const ArrayXd& part, Index fewest) {
   double sum = 0.0, count = 0.0;
   for (const double value : part) {
     if (!std::isnan(value)) sum += value * value, count += 1.0;
   }
-  return count < static_cast<double>(kFewestCompared) ? 0.0 : std::sqrt(sum / count);
+  return count < static_cast<double>(fewest) ? 0.0 : std::sqrt(sum / count);
 }
 
 /// Of the recordings that repeat: the noise, and by how much it is larger than its fast part.
@@ -128,7 +140,7 @@ std::vector<double> fast_levels(const Frame& frame, const ArrayXd& residual) {
   const double kept = 1.0 - parabola_weights(kHalfNarrow)[kHalfNarrow];
   std::vector<double> levels;
   for (const ArrayXd& part : fast_part(frame, residual, kHalfNarrow)) {
-    levels.push_back(part.size() > 8 ? std::sqrt(part.square().mean() / kept) : 0.0);
+    levels.push_back(rms_of(part, kFewestFast) / std::sqrt(kept));
   }
   return levels;
 }
@@ -138,7 +150,9 @@ std::vector<double> fast_levels(const Frame& frame, const ArrayXd& residual) {
 std::vector<double> noise_levels(const Frame& frame, const ArrayXd& residual) {
   std::vector<double> levels = fast_levels(frame, residual);
   std::vector<double> whole;
-  for (const ArrayXd& part : unrepeated(frame, residual)) whole.push_back(rms_of(part));
+  for (const ArrayXd& part : unrepeated(frame, residual)) {
+    whole.push_back(rms_of(part, kFewestCompared));
+  }
   const Usual usual = usual_of(levels, whole);
   std::vector<double> known;
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -154,15 +168,15 @@ std::vector<double> noise_levels(const Frame& frame, const ArrayXd& residual) {
 }
 
 double noise_colour(const Frame& frame, const ArrayXd& residual) {
-  const RepeatedNoise noise(frame, residual);
+  const Autocorrelation noise(unrepeated(frame, residual));
   if (noise.is_known()) return long_run(noise);
-  return kUnseenColour * std::max(1.0, 1.0 + 2.0 * autocorrelation(frame, residual).sum());
+  return kUnseenColour * std::max(1.0, 1.0 + 2.0 * fast_autocorrelation(frame, residual).sum());
 }
 
 Index rows_alike(const Frame& frame, const ArrayXd& residual) {
-  const RepeatedNoise noise(frame, residual);
+  const Autocorrelation noise(unrepeated(frame, residual));
   const bool known = noise.is_known();
-  const ArrayXd otherwise = known ? ArrayXd() : autocorrelation(frame, residual);
+  const ArrayXd otherwise = known ? ArrayXd() : fast_autocorrelation(frame, residual);
   Index lag = 1;
   while (lag <= kLags && (known ? noise.at(lag) : otherwise[lag - 1]) > kAlike) ++lag;
   return lag;
@@ -181,8 +195,8 @@ ArrayXd weights_of_fit(const Frame& frame, const ArrayXd& weight, Index alike) {
   return few;
 }
 
-ArrayXd weights_of(const Frame& frame, const std::vector<double>& level) {
-  ArrayXd weight = frame.usable;
+ArrayXd weights_of(const Frame& frame, Equation equation, const std::vector<double>& level) {
+  ArrayXd weight = frame.rows_of(equation);
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
     weight.segment(s.first, s.count) *= level[i] > 0.0 ? 1.0 / level[i] : 0.0;

@@ -4,7 +4,8 @@
 
 namespace flexspline::studies {
 
-/// Noise of one equation's residual.
+/// Noise of one equation's residual. Rows of it that are NaN do not count, and are bridged by a
+/// line where their neighbours need them.
 struct EquationNoise {
   std::vector<double> level;  ///< standard deviation by segment, Nm
   double colour = 1.0;        ///< long-run variance over variance: 1 for white noise
@@ -38,6 +39,6 @@ Eigen::Index rows_alike(const Frame& frame, const Eigen::ArrayXd& residual);
 Eigen::ArrayXd weights_of_fit(const Frame& frame, const Eigen::ArrayXd& weight, Eigen::Index alike);
 
 /// Weights 1/level of usable rows.
-Eigen::ArrayXd weights_of(const Frame& frame, const std::vector<double>& level);
+Eigen::ArrayXd weights_of(const Frame& frame, Equation equation, const std::vector<double>& level);
 
 }  // namespace flexspline::studies

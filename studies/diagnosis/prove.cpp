@@ -116,10 +116,11 @@ Result<std::vector<FoldFits>> fit_folds(const Frame& frame, const Selection& s,
 void take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, const FoldFits& fold,
                HeldOut& pool) {
   const ArrayXd held = out * frame.usable;
-  const ArrayXd train = (1.0 - out) * frame.usable;
   const ModelFit& base = fold.base.fit;
   const ModelFit& final = fold.final.fit;
-  const std::size_t e = index_of(equation_to_prove(frame, s));
+  const Equation equation = equation_to_prove(frame, s);
+  const std::size_t e = index_of(equation);
+  const ArrayXd train = (1.0 - out) * frame.rows_of(equation);
   pool.before = (out > 0.0).select(base.prediction[e], pool.before);
   pool.after = (out > 0.0).select(final.prediction[e], pool.after);
   take(pool.base, base.residual, held);
@@ -146,10 +147,11 @@ HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const Caus
     if (!frame.has(equation)) continue;
     const std::size_t e = index_of(equation);
     const EquationNoise& noise = findings.noise[e];
-    const double rows = held.sum() / noise.colour;
-    const double over_noise = rms_on(residual[e], held) / noise_on(frame, noise.level, held);
-    misfit.chi_square += rows * over_noise * over_noise;
-    misfit.noise += rows;
+    const ArrayXd rows = held * frame.rows_of(equation);
+    const double independent = rows.sum() / noise.colour;
+    const double over_noise = rms_on(residual[e], rows) / noise_on(frame, noise.level, rows);
+    misfit.chi_square += independent * over_noise * over_noise;
+    misfit.noise += independent;
   }
   return misfit;
 }
@@ -224,22 +226,24 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   if (!fits) return tl::unexpected(fits.error());
   HeldOut pool = nothing_yet(frame, s);
   for (std::size_t i = 0; i < folds.size(); ++i) take_fold(frame, s, folds[i], (*fits)[i], pool);
-  const std::size_t e = index_of(equation_to_prove(frame, s));
+  const Equation equation = equation_to_prove(frame, s);
+  const std::size_t e = index_of(equation);
   const ArrayXd held = held_out(frame) * frame.usable;
+  const ArrayXd judged = held * frame.rows_of(equation);
   Proof proof;
   proof.before = pool.before;
   proof.after = pool.after;
   HoldoutProof& h = proof.holdout;
-  h.rmse_before = rms_on(pool.base[e], held);
-  h.rmse_after = rms_on(pool.final[e], held);
+  h.rmse_before = rms_on(pool.base[e], judged);
+  h.rmse_after = rms_on(pool.final[e], judged);
   h.ratio = h.rmse_after / h.rmse_before;
-  h.noise_floor = noise_on(frame, s.final.noise[e].level, held);
+  h.noise_floor = noise_on(frame, s.final.noise[e].level, judged);
   proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
-  resample_ratio(frame, held, pool.base[e], pool.final[e], h);
+  resample_ratio(frame, judged, pool.base[e], pool.final[e], h);
   prove_causes(frame, s, pool, held, proof);
   for (FoldFits& fold : *fits) proof.by_fold.push_back(std::move(fold.final.fit));
-  if (e == index_of(Equation::motor)) {
+  if (equation == Equation::motor) {
     for (double* value : {&h.rmse_before, &h.rmse_after, &h.noise_floor, &proof.rmse_train_before,
                           &proof.rmse_train_after}) {
       *value *= frame.ratio;

@@ -172,9 +172,10 @@ std::optional<Resonance> resonance_in(const Frame& frame, const Findings& final,
   const std::size_t e = index_of(equation);
   const double torque = frame.largest_torque(equation);
   const ModeFit whole = best_mode(frame, final.fit, equation, final.weight[e], limits.threads);
-  const ArrayXd part = part_of(frame, final.fit, equation, whole) * frame.usable;
+  const ArrayXd rows = frame.rows_of(equation);
+  const ArrayXd part = part_of(frame, final.fit, equation, whole) * rows;
   // What takes no more than a trifle where it is fitted need not be tried elsewhere.
-  if (!(rms_on(part, frame.usable) > limits.trifle() * torque)) return std::nullopt;
+  if (!(rms_on(part, rows) > limits.trifle() * torque)) return std::nullopt;
   const auto by_fold = [&](const ModelFit& fold, const ArrayXd& weight) {
     return part_of(frame, fold, equation, best_mode(frame, fold, equation, weight, limits.threads));
   };

@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "flexspline/core/estimate.hpp"
+
 namespace flexspline::studies {
 namespace {
 
@@ -93,7 +95,8 @@ Noise measured_noise(const Frame& frame, const Findings& findings) {
   Noise noise;
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    const ArrayXd& residual = findings.fit.residual[e];
+    const ArrayXd residual =
+        (frame.rows_of(equation) > 0.0).select(findings.fit.residual[e], kNotComputed);
     noise[e] = {noise_levels(frame, residual), noise_colour(frame, residual),
                 rows_alike(frame, residual)};
   }
@@ -103,7 +106,7 @@ Noise measured_noise(const Frame& frame, const Findings& findings) {
 void take_noise(const Frame& frame, Noise noise, Findings& findings) {
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    findings.weight[e] = weights_of(frame, noise[e].level);
+    findings.weight[e] = weights_of(frame, equation, noise[e].level);
     findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], noise[e].alike);
   }
   findings.noise = std::move(noise);
@@ -194,7 +197,7 @@ Result<Findings> fit_baseline(const Frame& frame) {
   findings.fit.model = first_guess(frame);
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    findings.weight[e] = findings.fit_weight[e] = frame.usable;
+    findings.weight[e] = findings.fit_weight[e] = frame.rows_of(equation);
   }
   findings.reference = reference_of(frame, findings.fit.model);
   for (Equation equation : frame.equations) {

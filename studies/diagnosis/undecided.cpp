@@ -67,10 +67,10 @@ std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accep
 double share_followed(const Frame& frame, const Selection& s) {
   const Equation equation = equation_to_prove(frame, s);
   const ArrayXd& torque = equation == Equation::motor ? frame.motor_torque : frame.torque;
-  const double rows = frame.usable.sum();
-  const double mean = (torque * frame.usable).sum() / rows;
-  const double variance = ((torque - mean).square() * frame.usable).sum();
-  const double left = (s.final.fit.residual[index_of(equation)].square() * frame.usable).sum();
+  const ArrayXd rows = frame.rows_of(equation);
+  const double mean = (torque * rows).sum() / rows.sum();
+  const double variance = ((torque - mean).square() * rows).sum();
+  const double left = (s.final.fit.residual[index_of(equation)].square() * rows).sum();
   return variance > 0.0 ? 1.0 - left / variance : 0.0;
 }
 

@@ -16,7 +16,7 @@ HoldoutProof proof_of_part(const Frame& frame, const Findings& final, const Proo
   const auto folds = folds_of(frame);
   ArrayXd before = ArrayXd::Zero(frame.rows()), after = before, held = before;
   for (std::size_t k = 0; k < folds.size(); ++k) {
-    const ArrayXd rows = folds[k] * frame.usable;
+    const ArrayXd rows = folds[k] * frame.rows_of(equation);
     const ArrayXd& residual = proof.by_fold[k].residual[e];
     held += rows;
     before += residual * rows;
