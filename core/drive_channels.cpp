@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "flexspline/core/rig_residuals.hpp"
@@ -10,18 +9,11 @@ namespace {
 
 using Series = std::vector<double>;
 
-// Of white noise through 1/(1 + (w/bandwidth)^6), differentiated.
-double error_of_rate(const Series& time, const SmoothSignal& smooth) {
-  const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  return smooth.noise * std::sqrt(interval * std::pow(smooth.bandwidth, 3) / 12.0);
-}
-
 struct Smoothed {
   Series& value;
   Series& rate;
   Series& second;
   double* bandwidth = nullptr;
-  double* rate_error = nullptr;
 
   Result<void> fill(const Recording& recording, const Series& samples) const {
     auto smooth = smooth_by_spline(recording.time, samples);
@@ -30,7 +22,6 @@ struct Smoothed {
     rate = std::move(smooth->rate);
     second = std::move(smooth->second);
     if (bandwidth != nullptr) *bandwidth = smooth->bandwidth;
-    if (rate_error != nullptr) *rate_error = error_of_rate(recording.time, *smooth);
     return {};
   }
 };
@@ -77,13 +68,11 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, D
           ? first_of(recording, {Quantity::torsion, Quantity::displacement, Quantity::angle})
           : nullptr;
   double load_bandwidth = c.motor_bandwidth;
-  double load_speed_error = 0.0;
   const std::pair<const Series*, Smoothed> motions[] = {
       {recording.find(Quantity::motor_angle),
-       {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth,
-        &c.motor_speed_error}},
+       {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth}},
       {recording.find(Quantity::load_angle),
-       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth, &load_speed_error}},
+       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth}},
       {torsion, {c.torsion, c.torsion_rate, c.torsion_acceleration}}};
   for (const auto& [samples, smoothed] : motions) {
     if (samples == nullptr) continue;
@@ -94,7 +83,6 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, D
     follow_rigidly(ratio, c.load_speed, c.motor_speed);
     follow_rigidly(ratio, c.load_acceleration, c.motor_acceleration);
     c.motor_bandwidth = load_bandwidth;
-    c.motor_speed_error = ratio * load_speed_error;
   }
   return {};
 }

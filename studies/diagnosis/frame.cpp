@@ -29,8 +29,8 @@ std::string_view name_of(Equation equation) {
 }
 
 ArrayXd Frame::rows_of(Equation equation) const {
-  if (equation != Equation::motor || direction_known.size() == 0) return usable;
-  return usable * direction_known;
+  if (equation != Equation::motor || motor_slides.size() == 0) return usable;
+  return usable * motor_slides;
 }
 
 double Frame::largest_torque(Equation equation) const {

@@ -79,8 +79,7 @@ struct Frame {
   Eigen::ArrayXd motor_torque;                ///< recorded, at the motor shaft
   Eigen::ArrayXd smooth_motor_torque, motor_torque_rate;
   Eigen::ArrayXd usable;  ///< 1, or 0 where the bench spoiled the sample or smoothing has no hold
-  /// 1, or 0 where the smoothed motor speed does not tell which way the motor turns; empty: 1.
-  Eigen::ArrayXd direction_known;
+  Eigen::ArrayXd motor_slides;  ///< 1, or 0 where the motor may stick; empty: it slides everywhere
 
   double torsion_range = 0.0;  ///< largest |torsion|
   double lowest = 0.0;         ///< torsion, of all rows
@@ -105,7 +104,7 @@ struct Frame {
   void hang_pendulum();
   bool has(Equation equation) const;
   /// 1 for the rows that an equation is fitted to and judged on: those that are usable, of the
-  /// motor's where the direction of its dry friction is known.
+  /// motor's where it slides.
   Eigen::ArrayXd rows_of(Equation equation) const;
   /// Largest |torque| that an equation explains, over usable rows: at the motor shaft or across the
   /// transmission.

@@ -27,8 +27,6 @@ constexpr double kFarZero = 0.25;       // of half the motion: a tenth of torque
 constexpr double kSticking = 0.02;      // of the largest speed
 constexpr double kForgotten = 5.0;      // time constants, after which 0.7 % of a start are left
 constexpr double kBeginning = 0.2;      // of a recording, at most that much of it is a start
-constexpr double kErrors = 3.0;         // standard errors of a speed whose sign is known
-constexpr double kAcross = 2.0;         // of 1/bandwidth: a smoothed reversal's half width
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends
 
 double constant(const RecordingSet& set, const std::string& key, double fallback) {
@@ -115,7 +113,6 @@ class FrameMaker {
     put(frame_.motor_angle, d.motor_angle), put(frame_.motor_speed, d.motor_speed);
     put(frame_.motor_acceleration, d.motor_acceleration);
     frame_.motor_bandwidth.segment(at_, count) = d.motor_bandwidth;
-    mark_direction(d, count);
     put(frame_.load_angle, d.load_angle), put(frame_.load_speed, d.load_speed);
     put(frame_.load_acceleration, d.load_acceleration);
     put(frame_.torsion, d.torsion), put(frame_.torsion_rate, d.torsion_rate);
@@ -172,8 +169,7 @@ class FrameMaker {
             &f.smooth_motor_torque,
             &f.motor_torque_rate,
             &f.velocity,
-            &f.usable,
-            &f.direction_known};
+            &f.usable};
   }
 
   void mark_usable(const Recording& recording, Index count, Index stride) {
@@ -184,21 +180,6 @@ class FrameMaker {
       const bool good =
           (valid == nullptr || (*valid)[k] > 0.5) && (enabled == nullptr || (*enabled)[k] > 0.5);
       frame_.usable[at_ + i] = good && i >= kEndRows && i + kEndRows < count ? 1.0 : 0.0;
-    }
-  }
-
-  // Dry friction turns at once where the smoothed speed goes over in a time of 1/bandwidth.
-  void mark_direction(const DriveChannels& d, Index count) {
-    const auto speed = frame_.motor_speed.segment(at_, count);
-    const auto time = frame_.time.segment(at_, count);
-    auto known = frame_.direction_known.segment(at_, count);
-    known = (speed.abs() > kErrors * d.motor_speed_error).cast<double>();
-    const double half = kAcross / d.motor_bandwidth;
-    for (Index i = 1; i < count; ++i) {
-      if (speed[i] * speed[i - 1] > 0.0) continue;
-      const double at = 0.5 * (time[i] + time[i - 1]);
-      for (Index k = i; k < count && time[k] - at < half; ++k) known[k] = 0.0;
-      for (Index k = i - 1; k >= 0 && at - time[k] < half; --k) known[k] = 0.0;
     }
   }
 
@@ -283,7 +264,7 @@ class FrameMaker {
   // A motor that holds still takes any drive up to its breakaway.
   void leave_out_sticking() {
     Frame& f = frame_;
-    f.direction_known *= (f.motor_speed.abs() > kSticking * f.speed_range).cast<double>();
+    f.motor_slides = (f.motor_speed.abs() > kSticking * f.speed_range).cast<double>();
   }
 
   // What a joint did before its recording began still moves the torque behind a filter or a delay.

@@ -21,9 +21,6 @@ struct DriveChannels {
   /// rad/s: of what turns with w the smoothed motor angle and its derivatives keep the share
   /// 1/(1 + (w/motor_bandwidth)^6).
   double motor_bandwidth = std::numeric_limits<double>::infinity();
-  /// Standard error of motor_speed, rad/s: noise sqrt(dt motor_bandwidth^3/12), of white noise of
-  /// the samples through that filter's derivative.
-  double motor_speed_error = 0.0;
   std::vector<double> load_torque;  ///< beyond the pendulum's; empty for none
 };
 
