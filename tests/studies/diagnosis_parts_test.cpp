@@ -105,7 +105,7 @@ TEST(Noise, RowsOfAnAutoregressionAreAlikeUntilHalfOfItIsForgotten) {
 TEST(Noise, OneRowOfThoseThatAreAlikeStandsForAll) {
   Frame frame = closed_form_frame(8000);
   frame.usable.head(100).setZero();
-  const ArrayXd weight = weights_of(frame, {0.5, 0.4});
+  const ArrayXd weight = weights_of(frame, Equation::torsion, {0.5, 0.4});
   EXPECT_TRUE((weights_of_fit(frame, weight, 1) == weight).all());
   const ArrayXd few = weights_of_fit(frame, weight, 2);
   EXPECT_EQ((few.tail(4000) > 0.0).count(), 2000);
@@ -115,6 +115,24 @@ TEST(Noise, OneRowOfThoseThatAreAlikeStandsForAll) {
       << "a recording keeps enough for a fit to it alone";
 }
 
+// Of what an equation says nothing of, no noise is told, but that of the rows beside it is.
+TEST(Noise, RowsThatAreNaNDoNotCountAndAreBridged) {
+  const Frame frame = closed_form_frame(40000);
+  const ArrayXd noise = coloured_noise(frame.rows(), 0.6, 7);
+  const ArrayXd slow = noise + 20.0 * frame.load_angle;
+  ArrayXd some = slow;
+  for (Eigen::Index r = 10; r + 12 < frame.rows(); r += 45)
+    some.segment(r, 12).setConstant(kNotComputed);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(noise_levels(frame, some)[i], noise_levels(frame, slow)[i], 0.02);
+  }
+  EXPECT_NEAR(noise_colour(frame, some), noise_colour(frame, slow),
+              0.05 * noise_colour(frame, slow));
+  EXPECT_EQ(rows_alike(frame, some), rows_alike(frame, slow));
+  EXPECT_EQ(noise_levels(frame, ArrayXd::Constant(frame.rows(), kNotComputed)),
+            std::vector<double>(2, 0.0));
+}
+
 TEST(Noise, RowsThatAreNotUsableWeighNothingAndDoNotCount) {
   Frame frame = closed_form_frame(8000);
   frame.usable.segment(1000, 300).setZero();
@@ -122,7 +140,7 @@ TEST(Noise, RowsThatAreNotUsableWeighNothingAndDoNotCount) {
   const auto clean = noise_levels(frame, residual);
   residual.segment(1000, 300) += 1e6;
   EXPECT_EQ(noise_levels(frame, residual), clean);
-  const ArrayXd weight = weights_of(frame, {0.25, 0.5});
+  const ArrayXd weight = weights_of(frame, Equation::torsion, {0.25, 0.5});
   EXPECT_EQ(weight.segment(1000, 300).abs().maxCoeff(), 0.0);
   EXPECT_EQ(weight[999], 4.0);
   EXPECT_EQ(weight[frame.rows() - 1], 2.0);

@@ -21,7 +21,7 @@ Findings leaving(const Frame& frame, const ArrayXd& what) {
     const double level = 0.005 * frame.largest_torque(each);
     findings.fit.residual[e] = level * coloured_noise(frame.rows(), 0.0, ++seed);
     if (each == Equation::load) findings.fit.residual[e] += what;
-    findings.weight[e] = weights_of(frame, {level, level});
+    findings.weight[e] = weights_of(frame, each, {level, level});
   }
   return findings;
 }
