@@ -49,14 +49,14 @@ EffectTrace trace_in(Equation equation, const BaselineFit& with, const BaselineF
     const Segment& b = without.frame.segments[s];
     const Segment* const a = same_recording(b, with.frame);
     if (a == nullptr) return {};
-    const Eigen::ArrayXd usable = with.frame.usable.segment(a->first, a->count) *
-                                  without.frame.usable.segment(b.first, b.count);
+    const Eigen::ArrayXd judged = with.frame.rows_of(equation).segment(a->first, a->count) *
+                                  without.frame.rows_of(equation).segment(b.first, b.count);
     const Eigen::ArrayXd difference =
-        usable * (with.findings.fit.residual[e].segment(a->first, a->count) -
+        judged * (with.findings.fit.residual[e].segment(a->first, a->count) -
                   without.findings.fit.residual[e].segment(b.first, b.count));
     chi_square += (difference / noise.level[s]).square().sum() / noise.colour;
     for (Eigen::Index k = 0; k < b.count; ++k) {
-      if (usable[k] > 0.0) size.push_back(std::abs(difference[k]));
+      if (judged[k] > 0.0) size.push_back(std::abs(difference[k]));
     }
   }
   if (size.empty()) return {};
