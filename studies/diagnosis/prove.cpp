@@ -148,6 +148,7 @@ HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const Caus
     const std::size_t e = index_of(equation);
     const EquationNoise& noise = findings.noise[e];
     const ArrayXd rows = held * frame.rows_of(equation);
+    if (rows.sum() == 0.0) continue;
     const double independent = rows.sum() / noise.colour;
     const double over_noise = rms_on(residual[e], rows) / noise_on(frame, noise.level, rows);
     misfit.chi_square += independent * over_noise * over_noise;
