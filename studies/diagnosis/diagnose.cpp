@@ -60,6 +60,14 @@ void append(std::vector<T>& list, std::vector<T> more) {
               std::make_move_iterator(more.end()));
 }
 
+std::string sticking_in_words(const Frame& frame) {
+  const double share = 1.0 - frame.rows_of(Equation::motor).sum() / frame.usable.sum();
+  return fmt::format(
+      "the motor equation is not judged where the motor may stick, slower than {:.2g} % of its "
+      "largest speed ({:.0f} % of the rows): there it takes any torque up to its breakaway",
+      100.0 * kSticking, 100.0 * share);
+}
+
 Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limits& limits) {
   const auto& [frame, selection, proof] = decision.finding;
   Diagnosis d;
@@ -69,6 +77,9 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.notes = all.notes;
   append(d.notes, frame.notes);
   append(d.notes, spelled_parts(selection));
+  if (equation_to_prove(frame, selection) == Equation::motor) {
+    d.notes.push_back(sticking_in_words(frame));
+  }
   if (const auto lag = velocity_lag(frame)) d.notes.push_back(in_words(*lag));
   append(d.notes, decision.notes);
   auto specification = specify(frame, selection.final.fit.model, remarks_on(selection));

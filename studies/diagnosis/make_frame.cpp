@@ -24,7 +24,6 @@ constexpr double kRippleError = 0.02;   // of the acceleration that follows from
 constexpr double kRippleLimit = 0.002;  // that error's torque over the largest motor torque
 constexpr double kSameZero = 0.2;       // zeros that differ by less, over the widest motion
 constexpr double kFarZero = 0.25;       // of half the motion: a tenth of torque as offset is nearer
-constexpr double kSticking = 0.02;      // of the largest speed
 constexpr double kForgotten = 5.0;      // time constants, after which 0.7 % of a start are left
 constexpr double kBeginning = 0.2;      // of a recording, at most that much of it is a start
 constexpr Index kEndRows = 4;           // a smoothing spline's derivatives are loose at its ends

@@ -326,7 +326,13 @@ TEST(Causes, OfTheTorqueSignalKeepTheRatioOfTheirEquations) {
 // The channel of the motor's torque ripples, and was zeroed where the motor stood.
 TEST(MotorTorqueRipple, OfAChannelHasTheChannelsZero) {
   const auto made = drawn_case(Rig::servo, 8, {{"variant:motor_crosstalk", 0.07}});
-  EXPECT_EQ(names(diagnosed(made.recordings)), std::vector<std::string>{"motor_torque_ripple"});
+  const Diagnosis d = diagnosed(made.recordings);
+  EXPECT_EQ(names(d), std::vector<std::string>{"motor_torque_ripple"});
+  EXPECT_EQ(std::ranges::count_if(
+                d.notes,
+                [](const std::string& one) { return one.find("may stick") != std::string::npos; }),
+            1)
+      << "what the picture shows of standstill is not judged";
 }
 
 // A sensor's noise that has a colour is in its smoothed torque, too: to undo a delay must not take
