@@ -24,7 +24,7 @@ struct Repeat {
 };
 
 /// Of the largest motor speed: a slower motor may stick, and then takes any torque up to its
-/// breakaway.
+/// breakaway; so may one within 1/motor_bandwidth of its reversal.
 inline constexpr double kSticking = 0.02;
 
 /// Rows [first, first + count) of a frame that come from one recording.

@@ -260,10 +260,26 @@ class FrameMaker {
         "model fits it best, one number a recording");
   }
 
-  // A motor that holds still takes any drive up to its breakaway.
+  // A motor that holds still takes any drive up to its breakaway, and dry friction turns at once
+  // where the smoothed speed takes 1/bandwidth.
   void leave_out_sticking() {
     Frame& f = frame_;
     f.motor_slides = (f.motor_speed.abs() > kSticking * f.speed_range).cast<double>();
+    for (const Segment& s : f.segments) {
+      for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+        if (f.motor_speed[r] * f.motor_speed[r - 1] <= 0.0) leave_out_reversal(s, r);
+      }
+    }
+  }
+
+  // Between a row and that before it.
+  void leave_out_reversal(const Segment& s, Index row) {
+    Frame& f = frame_;
+    const double half = 1.0 / f.motor_bandwidth[row];
+    const double at = 0.5 * (f.time[row] + f.time[row - 1]);
+    for (Index r = row; r < s.first + s.count && f.time[r] - at < half; ++r)
+      f.motor_slides[r] = 0.0;
+    for (Index r = row - 1; r >= s.first && at - f.time[r] < half; --r) f.motor_slides[r] = 0.0;
   }
 
   // What a joint did before its recording began still moves the torque behind a filter or a delay.

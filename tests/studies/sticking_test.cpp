@@ -10,6 +10,8 @@
 namespace flexspline::studies {
 namespace {
 
+using Eigen::ArrayXd;
+
 constexpr double kRatio = 100.0;
 constexpr double kInertia = 1e-4;   // kg m2
 constexpr double kBreakaway = 0.1;  // Nm at the motor, of 0.9 Nm that the gear takes at most
@@ -94,10 +96,46 @@ TEST(Sticking, IsNotMissingPhysicsWhateverTheLoopHoldsAgainstIt) {
   // Of the motor's equation alone those rows are left out.
   const auto frame = make_frame(set, 20000);
   ASSERT_TRUE(frame.has_value());
-  const auto slides = (frame->motor_speed.abs() > 0.02 * frame->speed_range).cast<double>();
-  EXPECT_TRUE((frame->rows_of(Equation::motor) == frame->usable * slides).all());
+  const ArrayXd judged = frame->rows_of(Equation::motor);
+  const ArrayXd slow = (frame->motor_speed.abs() <= 0.02 * frame->speed_range).cast<double>();
+  EXPECT_EQ((judged * slow).maxCoeff(), 0.0);
+  // What else is left out is no longer than the smoothed speed takes to turn, once in a move.
+  const ArrayXd else_left_out = frame->usable * (1.0 - judged) * (1.0 - slow);
+  EXPECT_LT(else_left_out.sum(), 2.0 * 2.0 * 5 * kMoves / frame->motor_bandwidth[0] / kInterval);
   EXPECT_TRUE((frame->rows_of(Equation::torsion) == frame->usable).all());
   EXPECT_LT(frame->rows_of(Equation::motor).sum(), 0.7 * frame->usable.sum());
+}
+
+// The smoothed speed of a noisy sine passes a fiftieth of its largest sooner than it tells its
+// sign.
+TEST(Sticking, AReversalIsAsLongAsTheSmoothedSpeedTakes) {
+  constexpr double kRate = 6.0;
+  RecordingSet set;
+  set.rig = Rig::locked;
+  set.constants = {{"gear_ratio", kRatio}, {"motor_inertia_kgm2", kInertia}};
+  Recording r;
+  r.id = "sine";
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> noise;
+  for (double t = 0.0; t < 10.0; t += kInterval) {
+    r.time.push_back(t);
+    r.channels[Quantity::motor_angle].push_back(0.3 * std::sin(kRate * t) + 3e-3 * noise(engine));
+    r.channels[Quantity::transmitted_torque].push_back(60.0 * std::sin(kRate * t));
+    r.channels[Quantity::motor_torque].push_back(std::sin(kRate * t + 0.2));
+  }
+  set.recordings = {r};
+  const auto frame = make_frame(set, 20000);
+  ASSERT_TRUE(frame.has_value());
+  const double half = 1.0 / frame->motor_bandwidth[0];
+  ASSERT_GT(half, 2.0 * 0.02 / kRate) << "longer than the slow rows";
+  const ArrayXd judged = frame->rows_of(Equation::motor);
+  constexpr double kPhase = std::numbers::pi / kRate;
+  for (Eigen::Index i = 0; i < judged.size(); ++i) {
+    if (frame->usable[i] == 0.0) continue;
+    const double from = std::abs(std::remainder(frame->time[i] - 0.5 * kPhase, kPhase));
+    if (from < 0.8 * half) EXPECT_EQ(judged[i], 0.0) << frame->time[i];
+    if (from > 1.2 * half) EXPECT_EQ(judged[i], 1.0) << frame->time[i];
+  }
 }
 
 }  // namespace
