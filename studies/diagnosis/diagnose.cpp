@@ -8,6 +8,7 @@
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/specification.hpp"
 #include "diagnosis/spelled.hpp"
+#include "diagnosis/sticking.hpp"
 #include "diagnosis/velocity_lag.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
@@ -58,15 +59,6 @@ template <typename T>
 void append(std::vector<T>& list, std::vector<T> more) {
   list.insert(list.end(), std::make_move_iterator(more.begin()),
               std::make_move_iterator(more.end()));
-}
-
-std::string sticking_in_words(const Frame& frame) {
-  const double share = 1.0 - frame.rows_of(Equation::motor).sum() / frame.usable.sum();
-  return fmt::format(
-      "the motor equation is not judged where the motor may stick, slower than {:.2g} % of its "
-      "largest speed or about to turn ({:.0f} % of the rows): there it takes any torque up to its "
-      "breakaway",
-      100.0 * kSticking, 100.0 * share);
 }
 
 Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limits& limits) {

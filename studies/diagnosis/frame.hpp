@@ -23,10 +23,6 @@ struct Repeat {
   Eigen::Index rows = 0;
 };
 
-/// Of the largest motor speed: a slower motor may stick, and then takes any torque up to its
-/// breakaway; so may one within 1/motor_bandwidth of its reversal.
-inline constexpr double kSticking = 0.02;
-
 /// Rows [first, first + count) of a frame that come from one recording.
 struct Segment {
   std::string id;
@@ -83,7 +79,7 @@ struct Frame {
   Eigen::ArrayXd motor_torque;                ///< recorded, at the motor shaft
   Eigen::ArrayXd smooth_motor_torque, motor_torque_rate;
   Eigen::ArrayXd usable;  ///< 1, or 0 where the bench spoiled the sample or smoothing has no hold
-  Eigen::ArrayXd motor_slides;  ///< 1, or 0 where it may stick: kSticking; empty: nowhere
+  Eigen::ArrayXd motor_slides;  ///< motor_slides(); empty: 1 everywhere
 
   double torsion_range = 0.0;  ///< largest |torsion|
   double lowest = 0.0;         ///< torsion, of all rows

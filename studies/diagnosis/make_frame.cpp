@@ -11,6 +11,7 @@
 #include "diagnosis/periodic_angle.hpp"
 #include "diagnosis/repeats.hpp"
 #include "diagnosis/smoothed.hpp"
+#include "diagnosis/sticking.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -135,7 +136,7 @@ class FrameMaker {
     centre_recordings();
     centre_together();
     measure_ranges();
-    leave_out_sticking();
+    frame_.motor_slides = motor_slides(frame_);
     leave_out_starts();
     leave_out_hidden_motor();
     if (frame_.rig == Rig::locked || frame_.rig == Rig::free)
@@ -258,28 +259,6 @@ class FrameMaker {
     f.notes.emplace_back(
         "the zeros of the recordings differ: each, held out or not, is counted from where the "
         "model fits it best, one number a recording");
-  }
-
-  // A motor that holds still takes any drive up to its breakaway, and dry friction turns at once
-  // where the smoothed speed takes 1/bandwidth.
-  void leave_out_sticking() {
-    Frame& f = frame_;
-    f.motor_slides = (f.motor_speed.abs() > kSticking * f.speed_range).cast<double>();
-    for (const Segment& s : f.segments) {
-      for (Index r = s.first + 1; r < s.first + s.count; ++r) {
-        if (f.motor_speed[r] * f.motor_speed[r - 1] <= 0.0) leave_out_reversal(s, r);
-      }
-    }
-  }
-
-  // Between a row and that before it.
-  void leave_out_reversal(const Segment& s, Index row) {
-    Frame& f = frame_;
-    const double half = 1.0 / f.motor_bandwidth[row];
-    const double at = 0.5 * (f.time[row] + f.time[row - 1]);
-    for (Index r = row; r < s.first + s.count && f.time[r] - at < half; ++r)
-      f.motor_slides[r] = 0.0;
-    for (Index r = row - 1; r >= s.first && at - f.time[r] < half; --r) f.motor_slides[r] = 0.0;
   }
 
   // What a joint did before its recording began still moves the torque behind a filter or a delay.

@@ -16,7 +16,7 @@ using Eigen::Index;
 
 constexpr Index kHalfNarrow = 25;
 constexpr Index kHalfWide = 80;
-constexpr Index kFewestFast = 9;
+constexpr Index kFewestFast = 9;  // rows that tell a level to a quarter of itself
 constexpr Index kLags = 40;
 constexpr double kAlike = 0.5;       // autocorrelation
 constexpr Index kFewestRows = 1000;  // of a recording

@@ -4,8 +4,8 @@
 
 namespace flexspline::studies {
 
-/// Noise of one equation's residual. Rows of it that are NaN do not count, and are bridged by a
-/// line where their neighbours need them.
+/// Noise of one equation's residual, Nm. In all that follows a residual's rows that are NaN do not
+/// count, and are bridged by a line where a running parabola of their neighbours needs them.
 struct EquationNoise {
   std::vector<double> level;  ///< standard deviation by segment, Nm
   double colour = 1.0;        ///< long-run variance over variance: 1 for white noise

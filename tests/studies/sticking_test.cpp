@@ -103,7 +103,8 @@ TEST(Sticking, IsNotMissingPhysicsWhateverTheLoopHoldsAgainstIt) {
   const ArrayXd else_left_out = frame->usable * (1.0 - judged) * (1.0 - slow);
   EXPECT_LT(else_left_out.sum(), 2.0 * 2.0 * 5 * kMoves / frame->motor_bandwidth[0] / kInterval);
   EXPECT_TRUE((frame->rows_of(Equation::torsion) == frame->usable).all());
-  EXPECT_LT(frame->rows_of(Equation::motor).sum(), 0.7 * frame->usable.sum());
+  // It holds still for 0.3 s of 0.6 to 0.9 s: at least a third.
+  EXPECT_LT(judged.sum(), 0.67 * frame->usable.sum());
 }
 
 // The smoothed speed of a noisy sine passes a fiftieth of its largest sooner than it tells its
@@ -130,6 +131,7 @@ TEST(Sticking, AReversalIsAsLongAsTheSmoothedSpeedTakes) {
   ASSERT_GT(half, 2.0 * 0.02 / kRate) << "longer than the slow rows";
   const ArrayXd judged = frame->rows_of(Equation::motor);
   constexpr double kPhase = std::numbers::pi / kRate;
+  // Noise of the smoothed speed moves its zero by less than a fifth of that.
   for (Eigen::Index i = 0; i < judged.size(); ++i) {
     if (frame->usable[i] == 0.0) continue;
     const double from = std::abs(std::remainder(frame->time[i] - 0.5 * kPhase, kPhase));
