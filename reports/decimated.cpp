@@ -49,7 +49,11 @@ class Curve {
   std::vector<bool> kept(double tolerance) const {
     std::vector<bool> keep(points_.size(), false);
     keep.front() = keep.back() = true;
-    std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points_.size() - 1}};
+    std::vector<std::pair<std::size_t, std::size_t>> open = stretches();
+    for (const auto& [from, to] : open) {
+      keep[from] = keep[to] = true;
+      if (to + 1 < keep.size()) keep[to + 1] = true;
+    }
     while (!open.empty()) {
       const auto [from, to] = open.back();
       open.pop_back();
@@ -63,12 +67,24 @@ class Curve {
   }
 
  private:
-  /// What is no number is as far away as can be.
+  /// First and last points of what is drawn in one line: between two of them something is no
+  /// number.
+  std::vector<std::pair<std::size_t, std::size_t>> stretches() const {
+    std::vector<std::pair<std::size_t, std::size_t>> list;
+    bool goes_on = false;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const bool drawn = std::isfinite(points_[i].x) && std::isfinite(points_[i].y);
+      if (drawn && goes_on) list.back().second = i;
+      if (drawn && !goes_on) list.emplace_back(i, i);
+      goes_on = drawn;
+    }
+    return list;
+  }
+
   std::pair<double, std::size_t> farthest(std::size_t from, std::size_t to) const {
     std::pair<double, std::size_t> most = {0.0, from};
     for (std::size_t i = from + 1; i < to; ++i) {
       const double off = distance(points_[from], points_[to], points_[i]);
-      if (!std::isfinite(off)) return {std::numeric_limits<double>::infinity(), i};
       if (off > most.first) most = {off, i};
     }
     return most;

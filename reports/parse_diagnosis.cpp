@@ -182,10 +182,18 @@ void spell_effects(DiagnosisView& view) {
 
 }  // namespace
 
-bool DiagnosisView::has_additions() const {
-  return !causes.empty() || std::ranges::any_of(series, [](const ShownSeries& one) {
-    return !one.after.empty() && one.after != one.before;
+bool ShownSeries::has_after() const {
+  return !after.empty() && !std::ranges::equal(before, after, [](double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
   });
+}
+
+bool ShownSeries::judged_everywhere() const {
+  return std::ranges::none_of(before, [](double value) { return std::isnan(value); });
+}
+
+bool DiagnosisView::has_additions() const {
+  return !causes.empty() || std::ranges::any_of(series, &ShownSeries::has_after);
 }
 
 bool DiagnosisView::has_equations() const {

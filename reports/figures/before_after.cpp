@@ -55,7 +55,7 @@ Figure before_after_figure(const DiagnosisView& view) {
     panel.y.categories.push_back(label_of(view, one));
     before.x.push_back(rms_of(one.measured, one.before));
     before.y.push_back(row);
-    if (one.after.empty() || one.after == one.before) continue;
+    if (!one.has_after()) continue;
     after.x.push_back(rms_of(one.measured, one.after));
     after.y.push_back(row);
   }

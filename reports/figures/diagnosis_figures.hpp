@@ -30,9 +30,6 @@ Figure headline_figure(const DiagnosisView& view);
 /// Series as they stand, the one with the largest mismatch first.
 std::vector<const ShownSeries*> worst_first(const DiagnosisView& view);
 
-/// Whether there is a model with what was left out that differs from the one without.
-bool has_after(const ShownSeries& series);
-
 /// What a picker over the series is called, and what it says for one of them.
 std::vector<std::string> pickers_of(const DiagnosisView& view);
 std::vector<std::string> choice_of(const DiagnosisView& view, const ShownSeries& series);

@@ -58,7 +58,7 @@ Figure headline_figure(const DiagnosisView& view) {
   if (series == nullptr) return figure;
   figure.title =
       (series->trained ? "One recording: " : "A recording held out: ") + series->recording;
-  figure.caption = has_after(*series)
+  figure.caption = series->has_after()
                        ? "Left without, right with the missing physics. The wide line is measured; "
                          "what it shows beside the thin one is what the model lacks."
                        : "The wide line is measured; what it shows beside the thin one is what the "
@@ -66,8 +66,8 @@ Figure headline_figure(const DiagnosisView& view) {
   figure.alt = "Hysteresis loop measured and modelled, without and with the missing physics.";
   Frame frame;
   frame.panels.push_back(
-      panel_of(view, *series, has_after(*series) ? "without" : "", "baseline", 0, series->before));
-  if (has_after(*series)) {
+      panel_of(view, *series, series->has_after() ? "without" : "", "baseline", 0, series->before));
+  if (series->has_after()) {
     frame.panels.push_back(
         panel_of(view, *series, "with", "with the missing physics", 1, series->after));
   }

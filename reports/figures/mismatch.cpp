@@ -59,7 +59,7 @@ Panel panel_of(const ShownSeries& series, const std::vector<double>& x, const st
   panel.y.label = units.effort_label();
   panel.series.push_back({"measured", "line", {"measured", 0}, x, series.measured, {}, {}});
   panel.series.push_back({"baseline", "line", {"estimator", 0}, x, series.before, {}, {}});
-  if (has_after(series)) {
+  if (series.has_after()) {
     panel.series.push_back(
         {"with the missing physics", "line", {"estimator", 1}, x, series.after, {}, {}});
   }
@@ -110,6 +110,13 @@ std::size_t points_of(const DiagnosisView& view) {
   return std::clamp<std::size_t>(kNumbersInPicture / (kNumbersOfAPoint * lines), 120, 2000);
 }
 
+/// Why lines have gaps, where one has.
+std::string on_gaps(const DiagnosisView& view) {
+  return std::ranges::all_of(view.series, &ShownSeries::judged_everywhere)
+             ? ""
+             : " A modelled line breaks where the model is not judged.";
+}
+
 std::string caption_of(const DiagnosisView& view) {
   std::string text = "The wide line is measured, the solid one the baseline. ";
   text += view.mismatch.empty()
@@ -121,14 +128,10 @@ std::string caption_of(const DiagnosisView& view) {
         " Look whether the dashed line, with the missing physics, stays on the measured one "
         "there.";
   }
-  return text + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
+  return text + on_gaps(view) + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
 }
 
 }  // namespace
-
-bool has_after(const ShownSeries& series) {
-  return !series.after.empty() && series.after != series.before;
-}
 
 std::vector<const ShownSeries*> worst_first(const DiagnosisView& view) {
   std::vector<const ShownSeries*> ordered;
@@ -180,6 +183,7 @@ Figure remainder_figure(const DiagnosisView& view) {
   figure.caption = "Noise has no shape. Look for one in the solid line, over the " +
                    view.units.motion_name() + " or at certain times";
   figure.caption += view.has_additions() ? ", and whether the dashed line has lost it." : ".";
+  figure.caption += on_gaps(view);
   figure.alt = "Residual over torsion (displacement) and over time, before and after.";
   figure.derived_from = "mismatch";
   figure.y_label = "measured minus modelled";

@@ -94,7 +94,7 @@ Figure ordered_residuals_figure(const DiagnosisView& view) {
     }
     std::vector<Remainder> left = {
         {"baseline", {"estimator", 0}, less(series->measured, series->before)}};
-    if (has_after(*series)) {
+    if (series->has_after()) {
       left.push_back(
           {"with the missing physics", {"estimator", 1}, less(series->measured, series->after)});
     }

@@ -5,6 +5,7 @@
 
 #include "diagnosis/low_pass.hpp"
 #include "diagnosis/middle.hpp"
+#include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
 
@@ -31,6 +32,10 @@ std::string_view name_of(Equation equation) {
 ArrayXd Frame::rows_of(Equation equation) const {
   if (equation != Equation::motor || motor_slides.size() == 0) return usable;
   return usable * motor_slides;
+}
+
+ArrayXd Frame::judged_part(Equation equation, const ArrayXd& signal) const {
+  return (rows_of(equation) > 0.0).select(signal, kNotComputed);
 }
 
 double Frame::largest_torque(Equation equation) const {

@@ -106,6 +106,8 @@ struct Frame {
   /// 1 for the rows that an equation is fitted to and judged on: those that are usable, of the
   /// motor's where it slides.
   Eigen::ArrayXd rows_of(Equation equation) const;
+  /// A signal on those rows, NaN on the others.
+  Eigen::ArrayXd judged_part(Equation equation, const Eigen::ArrayXd& signal) const;
   /// Largest |torque| that an equation explains, over usable rows: at the motor shaft or across the
   /// transmission.
   double largest_torque(Equation equation) const;

@@ -95,8 +95,7 @@ Noise measured_noise(const Frame& frame, const Findings& findings) {
   Noise noise;
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    const ArrayXd residual =
-        (frame.rows_of(equation) > 0.0).select(findings.fit.residual[e], kNotComputed);
+    const ArrayXd residual = frame.judged_part(equation, findings.fit.residual[e]);
     noise[e] = {noise_levels(frame, residual), noise_colour(frame, residual),
                 rows_alike(frame, residual)};
   }

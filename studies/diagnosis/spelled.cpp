@@ -290,8 +290,11 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s)
   return list;
 }
 
-std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation, const ArrayXd& before,
-                                       const ArrayXd& after) {
+std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation,
+                                       const ArrayXd& prediction_before,
+                                       const ArrayXd& prediction_after) {
+  const ArrayXd before = frame.judged_part(equation, prediction_before);
+  const ArrayXd after = frame.judged_part(equation, prediction_after);
   const bool winds_up = equation == Equation::torsion || frame.rig == Rig::locked;
   const ArrayXd& motion = winds_up ? frame.torsion : frame.load_angle;
   const ArrayXd& rate = winds_up ? frame.torsion_rate : frame.load_speed;

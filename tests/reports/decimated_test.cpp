@@ -66,6 +66,19 @@ TEST(Decimated, NoiseIsHeldToTheMostPointsAndKeepsItsExtremes) {
   EXPECT_NEAR(*std::max_element(y.begin(), y.end()), top, 0.6);
 }
 
+TEST(Decimated, ALineBreaksWhereItIsNoNumberAndNowhereElse) {
+  Series x, y;
+  for (int i = 0; i <= 9000; ++i) {
+    x.push_back(i);
+    y.push_back(i > 4000 && i < 5000 ? std::nan("") : i);
+  }
+  decimate(x, y, 400);
+  EXPECT_EQ(x, (Series{0, 4000, 4001, 5000, 9000}));
+  EXPECT_TRUE(std::isnan(y[2]));
+  y[2] = 0.0;
+  EXPECT_EQ(y, (Series{0, 4000, 0, 5000, 9000}));
+}
+
 TEST(Decimated, CurvesThatShareTheirPointsKeepThoseThatAnyNeeds) {
   Series x, straight, bent;
   for (int i = 0; i <= 1000; ++i) {

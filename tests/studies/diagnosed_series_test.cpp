@@ -39,5 +39,19 @@ TEST(DiagnosedSeries, IsOverTheTorsionWhereThatIsWhatMoves) {
             range_of(series_on(locked, Equation::torsion)));
 }
 
+TEST(DiagnosedSeries, TheModelIsShownWhereItIsJudgedAlone) {
+  Frame frame = drawn_frame(Rig::free);
+  frame.motor_slides = Eigen::ArrayXd::Ones(frame.rows());
+  const Segment& first = frame.segments.front();
+  frame.motor_slides.segment(first.first, first.count).setZero();
+  const auto motor = series_on(frame, Equation::motor);
+  EXPECT_TRUE(std::ranges::all_of(motor.front().before, [](double v) { return std::isnan(v); }));
+  EXPECT_TRUE(std::ranges::none_of(motor.front().measured, [](double v) { return std::isnan(v); }));
+  const auto torsion = series_on(frame, Equation::torsion);
+  for (const auto* one : {&torsion.front(), &motor.back()}) {
+    EXPECT_TRUE(std::ranges::none_of(one->after, [](double v) { return std::isnan(v); }));
+  }
+}
+
 }  // namespace
 }  // namespace flexspline::studies

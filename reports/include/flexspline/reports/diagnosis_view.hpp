@@ -76,8 +76,13 @@ struct ShownUnnamed {
 struct ShownSeries {
   std::string recording, equation;
   bool trained = false;
-  std::vector<double> time, motion, rate, measured, before, after;
+  std::vector<double> time, motion, rate, measured;
+  std::vector<double> before, after;  ///< kAbsent where the model is not judged
   std::vector<double> motor_angle;  ///< deg; empty where the artefact has none
+
+  /// Whether there is a model with the missing physics that differs from the one without.
+  bool has_after() const;
+  bool judged_everywhere() const;
 };
 
 struct ShownExperiment {

@@ -163,7 +163,8 @@ struct DiagnosedSeries {
   std::string equation;
   /// SI. motion: the torsion in its equation and where the output is locked, else the joint's
   /// angle.
-  std::vector<double> time, motion, rate, measured, before, after;
+  std::vector<double> time, motion, rate, measured;
+  std::vector<double> before, after;  ///< modelled; NaN where the equation is not judged
   std::vector<double> motor_angle{};  ///< rad; empty where the output is locked
 };
 
