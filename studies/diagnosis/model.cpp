@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/model_problem.hpp"
+#include "diagnosis/motor_sign.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -101,18 +102,6 @@ ModelFit evaluate(const Frame& frame, const DriveModel& model, const Reference& 
   ModelColumns columns(frame, reference);
   fill_residuals(frame, columns, known, fit);
   return fit;
-}
-
-ArrayXd motor_sign(const Frame& frame, const DriveModel& model) {
-  const std::size_t e = index_of(Equation::motor);
-  const double narrow = 0.01 * std::max(frame.speed_range, 1e-300);
-  if (model.own.size() <= e || model.own[e].size() == 0) {
-    return rounded_sign(frame.motor_speed, narrow);
-  }
-  const auto own = shared_baseline(frame, Equation::motor, {});
-  const Eigen::VectorXd dry = model.own[e].segment(own->elastic, own->dissipative);
-  if (!(dry.sum() > 0.0)) return rounded_sign(frame.motor_speed, narrow);
-  return (own->columns.middleCols(own->elastic, own->dissipative) * dry).array() / dry.sum();
 }
 
 Reference reference_of(const Frame& frame, const DriveModel& model) {

@@ -32,6 +32,7 @@ struct DriveModel {
   std::vector<ActiveCause> causes;
   std::vector<Eigen::VectorXd> own;           ///< linear coefficients of the baseline by equation
   std::vector<Eigen::VectorXd> coefficients;  ///< of each cause
+  Eigen::VectorXd sign_shares{};  ///< fitted_sign(); empty: of the baseline's dry friction
 };
 
 struct ModelFit {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "diagnosis/motor_sign.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -109,6 +110,8 @@ void take_noise(const Frame& frame, Noise noise, Findings& findings) {
     findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], noise[e].alike);
   }
   findings.noise = std::move(noise);
+  findings.fit.model.sign_shares = fitted_sign(frame, findings.fit, findings.reference,
+                                               findings.weight[index_of(Equation::motor)]);
   findings.reference = reference_of(frame, findings.fit.model);
 }
 
