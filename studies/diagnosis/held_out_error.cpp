@@ -1,8 +1,9 @@
 #include "diagnosis/held_out_error.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <random>
+#include <numeric>
+
+#include <boost/math/distributions/students_t.hpp>
 
 namespace flexspline::studies {
 namespace {
@@ -10,7 +11,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kResamples = 400;
 constexpr Index kBlocksOfRecording = 8;
 
 /// Sums of squares of both models by block of the held-out recordings.
@@ -34,24 +34,26 @@ Blocks blocks_of(const Frame& frame, const ArrayXd& rows, const ArrayXd& before,
   return blocks;
 }
 
-void resample(const Blocks& blocks, HoldoutProof& proof) {
-  if (blocks.before.empty()) return;
-  std::mt19937_64 engine(2003);
-  std::uniform_int_distribution<std::size_t> pick(0, blocks.before.size() - 1);
-  std::vector<double> ratios;
-  for (int r = 0; r < kResamples; ++r) {
-    double before = 0.0;
-    double after = 0.0;
-    for (std::size_t k = 0; k < blocks.before.size(); ++k) {
-      const std::size_t i = pick(engine);
-      before += blocks.before[i];
-      after += blocks.after[i];
-    }
-    ratios.push_back(std::sqrt(after / before));
+double logarithm_of_ratio(double before, double after) { return 0.5 * std::log(after / before); }
+
+// Of the logarithm, which no interval takes below 0.
+void jackknife(const Blocks& blocks, HoldoutProof& proof) {
+  const std::size_t count = blocks.before.size();
+  if (count < 2) return;
+  const double before = std::reduce(blocks.before.begin(), blocks.before.end());
+  const double after = std::reduce(blocks.after.begin(), blocks.after.end());
+  ArrayXd without(static_cast<Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    without[static_cast<Index>(k)] =
+        logarithm_of_ratio(before - blocks.before[k], after - blocks.after[k]);
   }
-  std::ranges::sort(ratios);
-  proof.ci95_lower = ratios[kResamples / 40];
-  proof.ci95_upper = ratios[kResamples - 1 - kResamples / 40];
+  const double freedoms = static_cast<double>(count) - 1.0;
+  const double deviation =
+      std::sqrt(freedoms / (freedoms + 1.0) * (without - without.mean()).square().sum());
+  const double half = boost::math::quantile(boost::math::students_t(freedoms), 0.975) * deviation;
+  const double ratio = logarithm_of_ratio(before, after);
+  proof.ci95_lower = std::exp(ratio - half);
+  proof.ci95_upper = std::exp(ratio + half);
 }
 
 }  // namespace
@@ -72,9 +74,9 @@ double noise_on(const Frame& frame, const std::vector<double>& level, const Arra
   return total > 0.0 ? std::sqrt(variance / total) : kNotComputed;
 }
 
-void resample_ratio(const Frame& frame, const ArrayXd& rows, const ArrayXd& before,
-                    const ArrayXd& after, HoldoutProof& proof) {
-  resample(blocks_of(frame, rows, before, after), proof);
+void take_interval(const Frame& frame, const ArrayXd& rows, const ArrayXd& before,
+                   const ArrayXd& after, HoldoutProof& proof) {
+  jackknife(blocks_of(frame, rows, before, after), proof);
 }
 
 }  // namespace flexspline::studies

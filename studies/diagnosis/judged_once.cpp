@@ -143,7 +143,7 @@ HoldoutProof proof_on(const Frame& all, const ArrayXd& held, Equation equation,
   p.rmse_after = rms_on(after, rows);
   p.ratio = p.rmse_after / p.rmse_before;
   p.noise_floor = noise_on(frame, noise_levels(frame, frame.judged_part(equation, after)), rows);
-  resample_ratio(frame, rows, before, after, p);
+  take_interval(frame, rows, before, after, p);
   if (equation != Equation::motor) return p;
   for (double* value : {&p.rmse_before, &p.rmse_after, &p.noise_floor}) *value *= all.ratio;
   return p;

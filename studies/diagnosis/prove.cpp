@@ -241,7 +241,7 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   h.noise_floor = noise_on(frame, s.final.noise[e].level, judged);
   proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
-  resample_ratio(frame, judged, pool.base[e], pool.final[e], h);
+  take_interval(frame, judged, pool.base[e], pool.final[e], h);
   prove_causes(frame, s, pool, held, proof);
   for (FoldFits& fold : *fits) proof.by_fold.push_back(std::move(fold.final.fit));
   if (equation == Equation::motor) {
