@@ -209,6 +209,11 @@ void keep_best_of_each(std::vector<Trial>& trials) {
 
 }  // namespace
 
+Trial try_cause(const Frame& frame, const Findings& findings, const ActiveCause& cause) {
+  auto fit = extended(frame, findings, cause, kFinishSteps);
+  return fit ? judged(frame, findings, std::move(*fit), 1) : Trial{.cause = cause};
+}
+
 std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads) {
   Neighbourhood near(frame, findings);
   auto looks = look_at_all(frame, findings, near, threads);

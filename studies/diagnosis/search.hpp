@@ -56,6 +56,10 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
 Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause, int steps,
                          double smallest_fall = kSearchedFall);
 
+/// One cause on top of the findings, its shapes refined from those given; no gain where its fit
+/// fails. Its net gain has no penalty for a search.
+Trial try_cause(const Frame& frame, const Findings& findings, const ActiveCause& cause);
+
 /// Every cause and part of the baseline that is not yet in the model, best net gain first; one
 /// entry each. The same for any number of threads; 0: as many as the machine has.
 std::vector<Trial> try_causes(const Frame& frame, const Findings& findings, unsigned threads = 0);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/exchange.hpp"
 #include "diagnosis/explanation.hpp"
 #include "diagnosis/needless.hpp"
 #include "diagnosis/plain_form.hpp"
@@ -35,21 +36,6 @@ std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const L
 bool is_material(const Trial& trial, const Limits& limits) {
   return !trial.cause.row->of_baseline() && trial.size >= limits.interest &&
          trial.net_gain >= limits.named_gain;
-}
-
-Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
-  Accepted accepted;
-  accepted.trial = std::move(trials[best]);
-  accepted.first_gain = accepted.trial.gain;
-  accepted.material = is_material(accepted.trial, limits);
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
-    const bool alike =
-        trials[i].gain > limits.alike() * accepted.trial.gain && admissible(trials[i], limits);
-    trials[i].fit.prediction = {};  // dozens are kept: their residuals say it too
-    (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
-  }
-  return accepted;
 }
 
 // Immaterial causes first, in the lists as in the model.
@@ -105,6 +91,21 @@ Result<void> take_causes(const Frame& frame, const Selection& from, Selection& s
 
 }  // namespace
 
+Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits) {
+  Accepted accepted;
+  accepted.trial = std::move(trials[best]);
+  accepted.first_gain = accepted.trial.gain;
+  accepted.material = is_material(accepted.trial, limits);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (i == best || trials[i].cause.row == nullptr || trials[i].cause.row->of_baseline()) continue;
+    const bool alike =
+        trials[i].gain > limits.alike() * accepted.trial.gain && admissible(trials[i], limits);
+    trials[i].fit.prediction = {};  // dozens are kept: their residuals say it too
+    (alike ? accepted.rivals : accepted.field).push_back(std::move(trials[i]));
+  }
+  return accepted;
+}
+
 bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
   return row.of_baseline() && coefficients.size() > 0 &&
          coefficients.cwiseAbs().maxCoeff() > row.part->most;
@@ -140,6 +141,8 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
   }
   const auto found = search(frame, limits, s, progress);
   if (!found) return tl::unexpected(found.error());
+  const auto exchanged = exchange_for_better(frame, limits, s);
+  if (!exchanged) return tl::unexpected(exchanged.error());
   const auto cleared = take_out_needless(frame, limits, s);
   if (!cleared) return tl::unexpected(cleared.error());
   const auto plain = take_plain_forms(frame, limits, s);

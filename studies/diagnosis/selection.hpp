@@ -61,6 +61,9 @@ struct Selection {
   std::vector<const CauseRow*> redundant;  ///< what the others explain as well, named or not
 };
 
+/// The best of what was tried on one model, with the others that did nearly as well.
+Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limits);
+
 /// True for a part of the baseline that adds more to its law than such parts do: something else.
 bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 

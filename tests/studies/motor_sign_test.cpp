@@ -1,35 +1,14 @@
 // The sign with which a motor's dry friction turns, where most of the friction is a cause's.
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "active_cause.hpp"
 #include "diagnosis/motor_sign.hpp"
-#include "drive_frame.hpp"
+#include "stribeck_frame.hpp"
 
 namespace flexspline::studies {
 namespace {
-
-constexpr double kNoise = 0.004;    // Nm
-constexpr double kCoulomb = 0.05;   // Nm
-constexpr double kExcess = 0.25;    // Nm
-constexpr double kFalls = 0.15;     // Stribeck speed over the largest
-constexpr double kRounding = 0.01;  // width of the sign over the same
-
-/// The motor's equation alone, with a friction at rest five times that in motion.
-Frame stribeck_frame() {
-  Frame f = closed_form_frame();
-  f.equations = {Equation::motor};
-  std::mt19937 random(5);
-  std::normal_distribution<double> noise(0.0, kNoise);
-  const Eigen::ArrayXd w = f.motor_speed / f.speed_range;
-  const Eigen::ArrayXd magnitude = kCoulomb + kExcess * (-(w / kFalls).square()).exp();
-  f.motor_torque = f.motor_inertia * f.motor_acceleration + f.torque / f.ratio + 0.1 * w +
-                   magnitude * (w / kRounding).tanh() +
-                   Eigen::ArrayXd::NullaryExpr(f.rows(), [&] { return noise(random); });
-  return f;
-}
 
 Findings with_stribeck(const Frame& frame) {
   Findings findings = *fit_baseline(frame);
@@ -44,15 +23,16 @@ Findings with_stribeck(const Frame& frame) {
 TEST(MotorSign, IsThatOfAllFrictionAndNotOfWhatTheBaselineHasOfIt) {
   const Frame frame = stribeck_frame();
   const Findings findings = with_stribeck(frame);
-  const double deviations = kNoise / std::sqrt(0.05 * static_cast<double>(frame.rows()));
-  const Eigen::ArrayXd truth = (frame.motor_speed / (kRounding * frame.speed_range)).tanh();
+  const double deviations = kStribeckNoise / std::sqrt(0.05 * static_cast<double>(frame.rows()));
   const Eigen::ArrayXd sign = motor_sign(frame, findings.fit.model);
   // Where it turns, a twentieth of the rows; over the friction's height there.
-  EXPECT_LT(std::sqrt((sign - truth).square().mean()), 4.0 * deviations / (kCoulomb + kExcess));
+  EXPECT_LT(std::sqrt((sign - stribeck_sign(frame)).square().mean()),
+            4.0 * deviations / (kStribeckCoulomb + kStribeckExcess));
   const std::vector<double>& shape = findings.fit.model.causes.front().shape;
-  EXPECT_NEAR(shape[0], kFalls * frame.speed_range, 0.03 * kFalls * frame.speed_range);
+  EXPECT_NEAR(shape[0], kStribeckFalls * frame.speed_range,
+              0.03 * kStribeckFalls * frame.speed_range);
   EXPECT_NEAR(shape[1], 2.0, 0.1);
-  EXPECT_NEAR(findings.fit.model.coefficients.front()[0], kExcess, 0.05 * kExcess);
+  EXPECT_NEAR(findings.fit.model.coefficients.front()[0], kStribeckExcess, 0.05 * kStribeckExcess);
 }
 
 // What is exported has the laws of the model itself, and has to predict what the fit did.
