@@ -19,10 +19,10 @@ constexpr double kOutlying = 4.0;  // standard deviations: a single row is worth
 constexpr double kBeyondSearch = 18.0;  // nats; one in 10^7 searches of independent normal noise
 constexpr Index kHalfWindow = 25;  // of the parabola about which a pulse stands, as the noise's
 constexpr double kShown = 0.05;    // of a recording: as finely as its place is told
-
 constexpr double kAgain = 0.1;   // of its log likelihood: as much elsewhere, and it comes again
 constexpr double kCorner = 6.0;  // change of the acceleration in a row over the usual one
-// Times that at corners: one may be missed by more than another.
+// Times that where a model's own misfit looks alike: a step as what it misses is slow, and at
+// corners as one may be missed by more than another.
 constexpr double kUnsure = 3.0;
 constexpr Index kCornerRows = 10;
 constexpr std::array kShares = {0.01, 0.025, 0.05, 0.1};  // of a recording: lengths of a stretch
@@ -54,6 +54,8 @@ double usual_size(const ArrayXd& z) {
   }
   return sizes.empty() ? 0.0 : middle(std::move(sizes)) / kMedianSize;
 }
+
+double usual_value(const ArrayXd& z) { return middle({z.begin(), z.end()}); }
 
 // Log likelihood of a variance of its own, where it is larger than the recording's.
 double power_nats(double mean_square, double rows) {
@@ -138,6 +140,48 @@ void by_power(const ArrayXd& z, Best& best) {
   }
 }
 
+// Long-run variance over variance, at least 1 (Newey and West 1987): by how much means of rows that
+// follow each other scatter more than those of independent ones. The estimators' own ratio ends at
+// forty lags, which what a model misses outlasts.
+double long_run(const ArrayXd& z, Index lags) {
+  double sum = z.square().sum();
+  const double variance = sum;
+  for (Index k = 1; k <= lags && k < z.size(); ++k) {
+    const double weight = 1.0 - static_cast<double>(k) / static_cast<double>(lags + 1);
+    sum += 2.0 * weight * (z.head(z.size() - k) * z.tail(z.size() - k)).sum();
+  }
+  return variance > 0.0 ? std::max(1.0, sum / variance) : 1.0;
+}
+
+// A mean from one row to the end that is another than before, held against how means of what is
+// left beside the two wander: what a model misses is no step.
+Stretch by_step(const ArrayXd& z) {
+  const Index n = z.size();
+  const ArrayXd sum = running_sum(z);
+  const auto total = static_cast<double>(n);
+  Stretch best;
+  for (Index i = n / 10; i + n / 10 < n; ++i) {
+    const auto before = static_cast<double>(i);
+    const double contrast = sum[i] / before - (sum[n] - sum[i]) / (total - before);
+    const double nats = 0.5 * contrast * contrast * before * (total - before) / total;
+    if (nats > best.nats) best = {nats, i, n - i, 0.0};
+  }
+  if (best.count == 0) return best;
+  ArrayXd about = z;
+  auto later = about.tail(best.count);
+  auto earlier = about.head(n - best.count);
+  const double late = usual_value(later);
+  const double early = usual_value(earlier);
+  later -= late, earlier -= early;
+  const double usual = usual_size(about);
+  if (!(usual > 0.0)) return {};
+  about = (about / usual).max(-kOutlying).min(kOutlying);
+  const double contrast = (late - early) / usual + later.mean() - earlier.mean();
+  const auto after = static_cast<double>(best.count);
+  best.nats = 0.5 * contrast * contrast * after * (total - after) / total / long_run(about, n / 10);
+  return best;
+}
+
 // A few rows beside the rest: their mean over that of as many rows anywhere in the recording.
 void by_pulse(const ArrayXd& residual, Best& best) {
   const ArrayXd about = about_parabola(residual, parabola_weights(kHalfWindow));
@@ -160,11 +204,15 @@ void by_pulse(const ArrayXd& residual, Best& best) {
 
 /// The best stretch of every recording by one statistic.
 struct Scan {
+  enum class Of { steps, plain, corners };
   std::vector<Stretch> best;
-  bool at_corners = false;
+  Of of = Of::plain;
+
+  bool at_corners() const { return of == Of::corners; }
+  bool unsure() const { return of != Of::plain; }
 };
 
-/// Stretches of an equation's residual by power and pulse, apart from corners and at them.
+/// Stretches of an equation's residual by power, step and pulse, apart from corners and at them.
 class Scans {
  public:
   Scans(const Frame& frame, const std::vector<Corners>& corners, const Findings& findings,
@@ -179,7 +227,8 @@ class Scans {
   double usual() const { return usual_size(weighted_); }
 
   std::vector<Scan> all() const {
-    std::vector<Scan> list;
+    std::vector<Scan> list = {
+        {each([this](std::size_t i) { return by_step(weighted(i)); }), Scan::Of::steps}};
     for (const bool at_corners : {false, true}) {
       const auto best_of = [&](const auto& by) {
         return each([&](std::size_t i) {
@@ -191,8 +240,9 @@ class Scans {
       const double least = at_corners ? at_corners_ : 0.0;
       const auto power = [&](std::size_t i, Best& best) { by_power(normal(i, least), best); };
       const auto pulse = [&](std::size_t i, Best& best) { by_pulse(raw(i), best); };
-      list.push_back({best_of(power), at_corners});
-      list.push_back({best_of(pulse), at_corners});
+      const auto of = at_corners ? Scan::Of::corners : Scan::Of::plain;
+      list.push_back({best_of(power), of});
+      list.push_back({best_of(pulse), of});
     }
     return list;
   }
@@ -274,32 +324,20 @@ class Sought {
       const Segment& segment = frame_.segments[i];
       // A search over so many stretches gains as much on noise.
       const double beyond = s.nats - chance_;
-      const double least = kBeyondSearch * dispersion * (scan.at_corners ? kUnsure : 1.0);
+      const double least = kBeyondSearch * dispersion * (scan.unsure() ? kUnsure : 1.0);
       if (beyond < least || s.nats <= most_) continue;
       if (largest_beside(scan, i) - chance_ > kAgain * beyond) continue;
       if (static_cast<double>(s.count) > kMostOfIt * static_cast<double>(segment.count)) continue;
-      if (scan.at_corners && is_at_the_sharpest(corners_, i, s)) continue;
+      if (scan.at_corners() && is_at_the_sharpest(corners_, i, s)) continue;
       keep(s.nats, {equation, i, segment.first + s.first, s.count, 0.0}, residual);
     }
   }
 
-  /// A step is one where it is all that is missing: any smooth misfit of one recording has a step
-  /// that gains something.
-  void take(const std::vector<Step>& steps, Equation equation, const Findings& findings) {
-    const std::size_t e = index_of(equation);
-    const ArrayXd z = findings.fit.residual[e] * findings.weight[e];
-    const double misfit =
-        (z.square().sum() - static_cast<double>((findings.weight[e] > 0.0).count())) /
-        findings.noise[e].colour;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Segment& segment = frame_.segments[i];
-      const double nats = 0.5 * steps[i].gain;
-      const double beyond = nats - chance_;
-      if (beyond < kBeyondSearch || nats <= most_) continue;
-      if (steps[i].gain < limits_.alike() * misfit) continue;
-      keep(nats, {equation, i, segment.first + steps[i].first, segment.count - steps[i].first, 0.0},
-           findings.fit.residual[e]);
-    }
+  void take(const std::optional<Step>& step, Equation equation, const ArrayXd& residual) {
+    if (!step || step->nats - chance_ < kBeyondSearch || step->nats <= most_) return;
+    const Segment& s = frame_.segments[step->segment];
+    keep(step->nats, {equation, step->segment, s.first + step->first, s.count - step->first, 0.0},
+         residual);
   }
 
   /// Null where there is none.
@@ -346,7 +384,8 @@ std::optional<Incident> find_incident(const Frame& frame, const Findings& findin
     for (const Scan& scan : scans.all()) {
       sought.take(scan, equation, findings.fit.residual[index_of(equation)], scans.usual());
     }
-    sought.take(best_steps(frame, findings, equation), equation, findings);
+    sought.take(step_taken(frame, findings, equation, limits), equation,
+                findings.fit.residual[index_of(equation)]);
   }
   if (sought.found() == nullptr) return std::nullopt;
   return shown(frame, *sought.found());

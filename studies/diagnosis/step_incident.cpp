@@ -1,5 +1,8 @@
 #include "diagnosis/step_incident.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "diagnosis/linearised.hpp"
 
 namespace flexspline::studies {
@@ -17,17 +20,18 @@ class Steps {
   Steps(const Linearised& about, const Segment& segment, Equation at)
       : about_(about), segment_(segment), at_(at) {}
 
-  Step best() const {
+  /// Row and gain.
+  std::pair<Index, double> best() const {
     const Index tenth = segment_.count / 10;
-    Step best;
+    std::pair<Index, double> best{};
     const auto take = [&](Index first) {
       if (first < tenth || first >= segment_.count - tenth) return;
       const double gain = gain_of(first);
-      if (gain > best.gain) best = {first, gain};
+      if (gain > best.second) best = {first, gain};
     };
     Index apart = std::max<Index>(1, segment_.count / kGrid);
     for (Index first = tenth; first < segment_.count; first += apart) take(first);
-    while (apart > 1 && best.gain > 0.0) {
+    while (apart > 1 && best.second > 0.0) {
       apart = (apart + 1) / 2;
       const Index about = best.first;
       take(about - apart);
@@ -59,25 +63,29 @@ class Steps {
 
 }  // namespace
 
-std::vector<Step> best_steps(const Frame& frame, const Findings& findings, Equation equation) {
+std::optional<Step> step_taken(const Frame& frame, const Findings& findings, Equation equation,
+                               const Limits& limits) {
   const std::size_t e = index_of(equation);
   const ArrayXd& weight = findings.weight[e];
   const ArrayXd beyond =
-      (findings.fit.residual[e] * weight).square() - (weight > 0.0).cast<double>();
+      ((findings.fit.residual[e] * weight).square() - (weight > 0.0).cast<double>()) /
+      findings.noise[e].colour;
   CauseForm form;
   form.at = {equation};
   std::unique_ptr<const Linearised> about;
-  std::vector<Step> steps(frame.segments.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) {
+  Step best;
+  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
-    if (beyond.segment(s.first, s.count).sum() < kLeastMisfit * findings.noise[e].colour) continue;
+    if (beyond.segment(s.first, s.count).sum() < kLeastMisfit) continue;
     if (about == nullptr) {
       about = std::make_unique<const Linearised>(
           frame, findings, linked_equations(frame, findings.fit.model.causes, form));
     }
-    steps[i] = Steps(*about, s, equation).best();
+    const auto [first, gain] = Steps(*about, s, equation).best();
+    if (0.5 * gain > best.nats) best = {i, first, 0.5 * gain};
   }
-  return steps;
+  const bool is_all = best.nats > 0.0 && 2.0 * best.nats >= limits.alike() * beyond.sum();
+  return is_all ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace flexspline::studies

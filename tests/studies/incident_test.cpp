@@ -113,19 +113,20 @@ TEST(Incident, AStepGainsWhatTheLawDoesNotTakeOfIt) {
   what.segment(4700, 1300).setConstant(0.01 * frame.largest_torque(Equation::load));
   frame = with_load(frame, what);
   const Findings findings = *fit_baseline(frame);
-  const auto steps = best_steps(frame, findings, Equation::load);
-  ASSERT_EQ(steps.size(), 2U);
-  EXPECT_NEAR(static_cast<double>(steps[1].first), 1700.0, 30.0);
+  const auto step_found = step_taken(frame, findings, Equation::load, {});
+  ASSERT_TRUE(step_found);
+  EXPECT_EQ(step_found->segment, 1U);
+  EXPECT_NEAR(static_cast<double>(step_found->first), 1700.0, 30.0);
   const std::size_t e = index_of(Equation::load);
   const ArrayXd& weight = findings.weight[e];
   const Eigen::VectorXd law = (frame.load_speed * weight).matrix().normalized();
   Eigen::VectorXd step = Eigen::VectorXd::Zero(frame.rows());
-  const Index from = frame.segments[1].first + steps[1].first;
+  const Index from = frame.segments[1].first + step_found->first;
   step.tail(frame.rows() - from) = weight.tail(frame.rows() - from).matrix();
   step -= law * law.dot(step);
   const Eigen::VectorXd z = (findings.fit.residual[e] * weight).matrix();
   const double gain = std::pow(step.dot(z), 2) / step.squaredNorm() / findings.noise[e].colour;
-  EXPECT_NEAR(steps[1].gain, gain, 1e-6 * gain);
+  EXPECT_NEAR(2.0 * step_found->nats, gain, 1e-6 * gain);
 }
 
 // Slow noise of one recording has a mean from some row on that differs from the one before.
