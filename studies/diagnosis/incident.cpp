@@ -19,8 +19,8 @@ constexpr double kOutlying = 4.0;  // standard deviations: a single row is worth
 constexpr double kBeyondSearch = 18.0;  // nats; one in 10^7 searches of independent normal noise
 constexpr Index kHalfWindow = 25;  // of the parabola about which a pulse stands, as the noise's
 constexpr double kShown = 0.05;    // of a recording: as finely as its place is told
-constexpr double kAgain = 0.1;   // of its log likelihood: as much elsewhere, and it comes again
-constexpr double kCorner = 6.0;  // change of the acceleration in a row over the usual one
+constexpr double kAgain = 0.1;     // of its log likelihood: as much elsewhere, and it comes again
+constexpr double kCorner = 6.0;    // change of the acceleration in a row over the usual one
 // Times that where a model's own misfit looks alike: a step as what it misses is slow, and at
 // corners as one may be missed by more than another.
 constexpr double kUnsure = 3.0;
