@@ -44,6 +44,7 @@ void put_in_place(Selection& s, std::size_t cause, std::vector<Trial> trials, st
 
 Result<void> exchange_for_better(const Frame& frame, const Limits& limits, Selection& s) {
   if (s.accepted.size() < 2) return {};
+  // The last has been compared beside all others.
   for (std::size_t i = s.accepted.size() - 1; i-- > 0;) {
     const Accepted& a = s.accepted[i];
     if (a.rivals.empty() || a.trial.cause.row->of_baseline()) continue;

@@ -10,11 +10,11 @@ namespace flexspline::studies {
 /// none, one hundredth of the largest speed.
 Eigen::ArrayXd motor_sign(const Frame& frame, const DriveModel& model);
 
-/// Shares c_k of the sign by which the fitted model, its magnitudes of dry friction as they stand,
-/// those of causes and the baseline's own together, comes nearest to the measured torque. One step
-/// of a descent over signs and magnitudes in turn; the shares of the baseline's part alone are no
-/// such step: where causes have more of the friction they make up for the sign that these had.
-/// Empty where no cause turns with that sign.
+/// Shares c_k, up to a factor, of the sign by which the fitted model, its magnitudes of dry
+/// friction as they stand, those of causes and the baseline's own together, comes nearest to the
+/// measured torque. One step of a descent over signs and magnitudes in turn; the shares of the
+/// baseline's part alone are no such step: where causes have more of the friction they make up for
+/// the sign that these had. Empty where no cause turns with that sign.
 Eigen::VectorXd fitted_sign(const Frame& frame, const ModelFit& fit, const Reference& reference,
                             const Eigen::ArrayXd& weight);
 
