@@ -128,7 +128,8 @@ std::string caption_of(const DiagnosisView& view) {
         " Look whether the dashed line, with the missing physics, stays on the measured one "
         "there.";
   }
-  return text + on_gaps(view) + " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
+  return text + on_gaps(view) +
+         " Ctrl and the wheel zoom, or two fingers; a click in the legend hides a line.";
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr int kRefreshSteps = 8;
-
 bool is_in(const DriveModel& model, const CauseRow* row) {
   return std::ranges::count(model.causes, row, &ActiveCause::row) > 0;
 }

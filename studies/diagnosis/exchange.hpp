@@ -8,6 +8,7 @@ namespace flexspline::studies {
 /// one of them has the larger net gain (the marginal likelihood, to first order) it takes the
 /// cause's place, which becomes an alternative. When a cause was accepted, those that came after it
 /// were not in the model, and what differed between alternatives may have been theirs.
+/// Errors: those of fits.
 Result<void> exchange_for_better(const Frame& frame, const Limits& limits, Selection& selection);
 
 }  // namespace flexspline::studies

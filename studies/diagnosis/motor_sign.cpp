@@ -59,13 +59,11 @@ VectorXd fitted_sign(const Frame& frame, const ModelFit& fit, const Reference& r
   const ArrayXd without = with_sign(ArrayXd::Zero(frame.rows()));
   const DryFriction dry = dry_friction(frame, model);
   MatrixXd columns(frame.rows(), dry.signs.cols());
-  bool any = false;
   for (Index k = 0; k < columns.cols(); ++k) {
     const ArrayXd of_causes = with_sign(dry.signs.col(k)) - without;
-    any = any || (of_causes != 0.0).any();
+    if (k == 0 && (of_causes == 0.0).all()) return {};
     columns.col(k) = of_causes.matrix() + dry.own.sum() * dry.signs.col(k);
   }
-  if (!any) return {};
   const ArrayXd measured = fit.residual[kMotor] + fit.prediction[kMotor];
   const VectorXd rest = (measured - without).matrix() + dry.signs * dry.own;
   const auto weighed = weight.matrix().asDiagonal();

@@ -15,6 +15,7 @@ Eigen::ArrayXd motor_sign(const Frame& frame, const DriveModel& model);
 /// measured torque. One step of a descent over signs and magnitudes in turn; the shares of the
 /// baseline's part alone are no such step: where causes have more of the friction they make up for
 /// the sign that these had. Empty where no cause turns with that sign.
+/// Not modelled: a cause of the square of s is taken as the same mixture of squares.
 Eigen::VectorXd fitted_sign(const Frame& frame, const ModelFit& fit, const Reference& reference,
                             const Eigen::ArrayXd& weight);
 

@@ -11,8 +11,6 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr int kRefreshSteps = 8;
-
 double chi_square_rise(const Frame& frame, const Findings& findings, const ModelFit& fit) {
   return chi_square(frame, findings, fit) - chi_square(frame, findings, findings.fit);
 }

@@ -12,8 +12,6 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr int kRefreshSteps = 8;
-
 bool admissible(const Trial& trial, const Limits& limits) {
   return trial.cause.row != nullptr && trial.net_gain >= limits.gain &&
          !is_taken_up(trial, limits) &&

@@ -35,6 +35,9 @@ struct Limits {
   double as_noise() const { return 1.0 / half; }
 };
 
+/// Of the shapes, in a fit that starts from one of nearly the same model.
+inline constexpr int kRefreshSteps = 8;
+
 /// A cause that was accepted, with the others that did nearly as well.
 struct Accepted {
   Trial trial;

@@ -11,8 +11,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kLeastMisfit = 36.0;  // chi square: the least that an incident has to gain
-constexpr Index kGrid = 16;
+constexpr Index kGrid = 16;  // to begin with: the gain falls off linearly beside the true row
 
 /// Steps of one recording, added to the model one at a time.
 class Steps {
@@ -76,7 +75,7 @@ std::optional<Step> step_taken(const Frame& frame, const Findings& findings, Equ
   Step best;
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
-    if (beyond.segment(s.first, s.count).sum() < kLeastMisfit) continue;
+    if (beyond.segment(s.first, s.count).sum() < 2.0 * limits.gain) continue;
     if (about == nullptr) {
       about = std::make_unique<const Linearised>(
           frame, findings, linked_equations(frame, findings.fit.model.causes, form));

@@ -78,7 +78,7 @@ struct ShownSeries {
   bool trained = false;
   std::vector<double> time, motion, rate, measured;
   std::vector<double> before, after;  ///< kAbsent where the model is not judged
-  std::vector<double> motor_angle;  ///< deg; empty where the artefact has none
+  std::vector<double> motor_angle;    ///< deg; empty where the artefact has none
 
   /// Whether there is a model with the missing physics that differs from the one without.
   bool has_after() const;
