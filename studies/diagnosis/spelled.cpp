@@ -290,9 +290,16 @@ std::vector<ParameterMove> spelled_moves(const Frame& frame, const Selection& s)
   return list;
 }
 
-std::vector<DiagnosedSeries> series_of(const Frame& frame, Equation equation,
+// An incident is left out, and has to be seen.
+Frame with_incidents(Frame frame) {
+  for (const Incident& one : frame.incidents) frame.usable.segment(one.first, one.count).setOnes();
+  return frame;
+}
+
+std::vector<DiagnosedSeries> series_of(const Frame& judged_on, Equation equation,
                                        const ArrayXd& prediction_before,
                                        const ArrayXd& prediction_after) {
+  const Frame frame = with_incidents(judged_on);
   const ArrayXd before = frame.judged_part(equation, prediction_before);
   const ArrayXd after = frame.judged_part(equation, prediction_after);
   const bool winds_up = equation == Equation::torsion || frame.rig == Rig::locked;

@@ -53,5 +53,17 @@ TEST(DiagnosedSeries, TheModelIsShownWhereItIsJudgedAlone) {
   }
 }
 
+TEST(DiagnosedSeries, AnIncidentThatIsLeftOutIsShown) {
+  Frame frame = drawn_frame(Rig::locked);
+  const auto whole = series_on(frame, Equation::torsion);
+  const Segment& first = frame.segments.front();
+  const Eigen::Index count = first.count / 2;
+  frame.incidents.push_back({Equation::torsion, 0, first.first + first.count - count, count, 0.1});
+  frame.usable.segment(first.first + first.count - count, count).setZero();
+  const auto shown = series_on(frame, Equation::torsion);
+  EXPECT_GE(shown.front().time.back(), whole.front().time.back());
+  EXPECT_TRUE(std::ranges::none_of(shown.front().after, [](double v) { return std::isnan(v); }));
+}
+
 }  // namespace
 }  // namespace flexspline::studies
