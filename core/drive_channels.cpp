@@ -14,6 +14,7 @@ struct Smoothed {
   Series& rate;
   Series& second;
   double* bandwidth = nullptr;
+  Series* rate_error = nullptr;
 
   Result<void> fill(const Recording& recording, const Series& samples) const {
     auto smooth = smooth_by_spline(recording.time, samples);
@@ -21,6 +22,7 @@ struct Smoothed {
     value = std::move(smooth->value);
     rate = std::move(smooth->rate);
     second = std::move(smooth->second);
+    if (rate_error != nullptr) *rate_error = std::move(smooth->rate_error);
     if (bandwidth != nullptr) *bandwidth = smooth->bandwidth;
     return {};
   }
@@ -70,10 +72,12 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, D
   double load_bandwidth = c.motor_bandwidth;
   const std::pair<const Series*, Smoothed> motions[] = {
       {recording.find(Quantity::motor_angle),
-       {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth}},
+       {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth,
+        &c.motor_speed_error}},
       {recording.find(Quantity::load_angle),
        {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth}},
-      {torsion, {c.torsion, c.torsion_rate, c.torsion_acceleration}}};
+      {torsion,
+       {c.torsion, c.torsion_rate, c.torsion_acceleration, nullptr, &c.torsion_rate_error}}};
   for (const auto& [samples, smoothed] : motions) {
     if (samples == nullptr) continue;
     if (auto filled = smoothed.fill(recording, *samples); !filled) return filled;

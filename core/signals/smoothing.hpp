@@ -18,6 +18,10 @@ struct SmoothSignal {
   std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
   /// rad/s: of a sine of w the share 1/(1 + (w/bandwidth)^6) is kept; of a spline.
   double bandwidth = std::numeric_limits<double>::infinity();
+  /// Standard deviation of rate by sample, that of its noise and most of what smoothing took:
+  /// its change where the penalty is a ninth, rms within 1/bandwidth; of a spline. What is faster
+  /// than the samples is not in it.
+  std::vector<double> rate_error{};
 };
 
 /// Whether signals can be smoothed: 16 samples or more over a time that increases, and squares that

@@ -20,9 +20,11 @@ using Sparse = Eigen::SparseMatrix<double>;
 using BandedSolver = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 constexpr std::size_t kFewestSamples = 16;
-constexpr std::size_t kSamplesPerInterval = 3;
-constexpr std::size_t kMostIntervals = 3000;
+constexpr std::size_t kMostIntervals = 20000;  // fewer than samples only where these are more
 constexpr int kProbes = 6;
+// Of a degree of freedom in cross-validation. At 1, with as many knots as samples, it now and then
+// interpolates noise that is not white, as the counts of an encoder are.
+constexpr double kCost = 1.1;
 
 Sparse design(std::span<const double> time, const CubicBasis& basis) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -97,13 +99,14 @@ Equations::Equations(std::span<const double> time, const CubicBasis& splines,
 
 // Generalised cross-validation of one penalty; the trace by random signs (Hutchinson). Keeps it for
 // the signals whose best it is.
-void try_penalty(Equations& equations, double penalty, std::vector<Penalised>& best) {
+void try_penalty(Equations& equations, double penalty, double cost, std::vector<Penalised>& best) {
   equations.solver.factorize(equations.normal + penalty * equations.roughness);
   const Eigen::MatrixXd solved = equations.solver.solve(equations.right);
   const double freedom =
       equations.right.rightCols(kProbes).cwiseProduct(solved.rightCols(kProbes)).sum() / kProbes;
   const double n = static_cast<double>(equations.samples.rows());
-  const double left = std::max(n - freedom, 1.0);
+  const double left = n - cost * freedom;
+  if (left < 1.0) return;
   for (std::size_t s = 0; s < best.size(); ++s) {
     const auto column = static_cast<Eigen::Index>(s);
     const Eigen::VectorXd coefficients = solved.col(column);
@@ -141,6 +144,34 @@ double bandwidth_of(double penalty, double samples_per_interval, double interval
   return std::min(half, std::numbers::pi) / interval;
 }
 
+// Root mean square over the samples within a span of time about each.
+std::vector<double> running_rms(std::span<const double> time, const std::vector<double>& x,
+                                double span) {
+  std::vector<double> sums(x.size() + 1, 0.0), rms(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) sums[i + 1] = sums[i] + x[i] * x[i];
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    while (time[first] < time[i] - span) ++first;
+    while (last < x.size() && time[last] <= time[i] + span) ++last;
+    const double sum = std::max(sums[last] - sums[first], 0.0);
+    rms[i] = std::sqrt(sum / static_cast<double>(last - first));
+  }
+  return rms;
+}
+
+// By what changes with a ninth of the penalty. White noise passes H = 1/(1 + (w/bandwidth)^6); the
+// integrals of w^2 (H_9 - H)^2 and of w^2 H^2 over w are equal, so that noise changes a rate by as
+// much as it makes it wrong, and of what smoothing took eight ninths come back.
+std::vector<double> rate_error(Equations& equations, const Penalised& fit, std::size_t column,
+                               const CubicBasis& basis, std::span<const double> time,
+                               std::span<const double> samples, const SmoothSignal& smooth) {
+  std::vector<Penalised> rougher(static_cast<std::size_t>(equations.samples.cols()));
+  try_penalty(equations, fit.penalty / 9.0, 0.0, rougher);
+  std::vector<double> change = signal_of(rougher[column], basis, time, samples).rate;
+  std::ranges::transform(change, smooth.rate, change.begin(), std::minus<>());
+  return running_rms(time, change, 1.0 / smooth.bandwidth);
+}
+
 bool has_finite_squares(std::span<const double> samples) {
   double sum = 0.0;
   for (const double x : samples) sum += x * x;
@@ -172,13 +203,12 @@ Result<void> check_samples(std::span<const double> time,
 Result<std::vector<SmoothSignal>> smooth_by_splines(
     std::span<const double> time, std::span<const std::span<const double>> signals) {
   if (auto sound = check_samples(time, signals); !sound) return tl::unexpected(sound.error());
-  const std::size_t intervals =
-      std::clamp<std::size_t>(time.size() / kSamplesPerInterval, 4, kMostIntervals);
+  const std::size_t intervals = std::clamp<std::size_t>(time.size(), 4, kMostIntervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
   Equations equations(time, basis, signals);
   std::vector<Penalised> best(signals.size());
   for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
-    try_penalty(equations, std::pow(10.0, exponent), best);
+    try_penalty(equations, std::pow(10.0, exponent), kCost, best);
   }
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < signals.size(); ++s) {
@@ -190,6 +220,8 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
     smooth.back().bandwidth = bandwidth_of(
         best[s].penalty, static_cast<double>(time.size()) / static_cast<double>(intervals),
         (time.back() - time.front()) / static_cast<double>(intervals));
+    smooth.back().rate_error =
+        rate_error(equations, best[s], s, basis, time, signals[s], smooth.back());
   }
   return smooth;
 }

@@ -63,15 +63,8 @@ double rms_on(const ArrayXd& residual, const ArrayXd& rows) {
   return count > 0.0 ? std::sqrt((residual.square() * rows).sum() / count) : kNotComputed;
 }
 
-double noise_on(const Frame& frame, const std::vector<double>& level, const ArrayXd& rows) {
-  double variance = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-    const double count = rows.segment(frame.segments[i].first, frame.segments[i].count).sum();
-    variance += count * level[i] * level[i];
-    total += count;
-  }
-  return total > 0.0 ? std::sqrt(variance / total) : kNotComputed;
+double noise_on(const Frame& frame, const EquationNoise& noise, const ArrayXd& rows) {
+  return rms_on(deviation_of(frame, noise), rows);
 }
 
 void take_interval(const Frame& frame, const ArrayXd& rows, const ArrayXd& before,

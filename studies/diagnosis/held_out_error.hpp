@@ -9,7 +9,7 @@ namespace flexspline::studies {
 double rms_on(const Eigen::ArrayXd& residual, const Eigen::ArrayXd& rows);
 
 /// Noise of an equation over the rows marked 1.
-double noise_on(const Frame& frame, const std::vector<double>& level, const Eigen::ArrayXd& rows);
+double noise_on(const Frame& frame, const EquationNoise& noise, const Eigen::ArrayXd& rows);
 
 /// 95 % interval of the ratio R of two errors over the rows marked 1: of ln R, by the jackknife
 /// over eighths of the recordings and Student's quantile (Miller 1974),

@@ -7,6 +7,7 @@
 
 #include "diagnosis/held_out_error.hpp"
 #include "diagnosis/middle.hpp"
+#include "diagnosis/rate_error.hpp"
 #include "diagnosis/spelled.hpp"
 
 namespace flexspline::studies {
@@ -80,10 +81,14 @@ std::vector<double> levels_on(const Frame& frame, const Frame& searched,
 }
 
 Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Findings findings) {
+  const PerEquation of_rate =
+      torque_of_rate_error(frame, findings.fit.model, reference_of(frame, findings.fit.model));
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    findings.noise[e].level = levels_on(frame, searched, findings.noise[e].level);
-    findings.weight[e] = weights_of(frame, equation, findings.noise[e].level);
+    EquationNoise& noise = findings.noise[e];
+    noise.level = levels_on(frame, searched, noise.level);
+    noise.of_rate = of_rate[e];
+    findings.weight[e] = weights_of(frame, equation, noise);
     findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
   }
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -142,7 +147,8 @@ HoldoutProof proof_on(const Frame& all, const ArrayXd& held, Equation equation,
   p.rmse_before = rms_on(before, rows);
   p.rmse_after = rms_on(after, rows);
   p.ratio = p.rmse_after / p.rmse_before;
-  p.noise_floor = noise_on(frame, noise_levels(frame, frame.judged_part(equation, after)), rows);
+  p.noise_floor =
+      noise_on(frame, {.level = noise_levels(frame, frame.judged_part(equation, after))}, rows);
   take_interval(frame, rows, before, after, p);
   if (equation != Equation::motor) return p;
   for (double* value : {&p.rmse_before, &p.rmse_after, &p.noise_floor}) *value *= all.ratio;

@@ -117,6 +117,9 @@ class FrameMaker {
     put(frame_.load_acceleration, d.load_acceleration);
     put(frame_.torsion, d.torsion), put(frame_.torsion_rate, d.torsion_rate);
     put(frame_.torsion_acceleration, d.torsion_acceleration);
+    const bool wound = d.torsion_rate_error.empty();  // a motor against a load that rests
+    put(frame_.torsion_rate_error, wound ? d.motor_speed_error : d.torsion_rate_error);
+    if (wound) frame_.torsion_rate_error.segment(at_, count) /= frame_.ratio;
     put(frame_.torque, d.transmitted_torque), put(frame_.smooth_torque, c.smooth_torque);
     put(frame_.torque_rate, c.torque_rate), put(frame_.motor_torque, d.motor_torque);
     put(frame_.smooth_motor_torque, c.smooth_motor_torque);
@@ -162,6 +165,7 @@ class FrameMaker {
             &f.torsion,
             &f.torsion_rate,
             &f.torsion_acceleration,
+            &f.torsion_rate_error,
             &f.torque,
             &f.smooth_torque,
             &f.torque_rate,

@@ -195,13 +195,19 @@ ArrayXd weights_of_fit(const Frame& frame, const ArrayXd& weight, Index alike) {
   return few;
 }
 
-ArrayXd weights_of(const Frame& frame, Equation equation, const std::vector<double>& level) {
-  ArrayXd weight = frame.rows_of(equation);
+ArrayXd deviation_of(const Frame& frame, const EquationNoise& noise) {
+  ArrayXd deviation(frame.rows());
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
-    weight.segment(s.first, s.count) *= level[i] > 0.0 ? 1.0 / level[i] : 0.0;
+    deviation.segment(s.first, s.count).setConstant(noise.level[i]);
   }
-  return weight;
+  if (noise.of_rate.size() == 0) return deviation;
+  return (deviation.square() + noise.of_rate.square()).sqrt();
+}
+
+ArrayXd weights_of(const Frame& frame, Equation equation, const EquationNoise& noise) {
+  const ArrayXd deviation = deviation_of(frame, noise);
+  return (deviation > 0.0).select(frame.rows_of(equation) / deviation, 0.0);
 }
 
 }  // namespace flexspline::studies

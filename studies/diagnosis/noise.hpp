@@ -10,6 +10,7 @@ struct EquationNoise {
   std::vector<double> level;  ///< standard deviation by segment, Nm
   double colour = 1.0;        ///< long-run variance over variance: 1 for white noise
   Eigen::Index alike = 1;     ///< rows over which it hardly changes
+  Eigen::ArrayXd of_rate{};   ///< torque_of_rate_error(), Nm by row; empty: none
 };
 
 /// Standard deviation by recording. Where its motion repeats: of what the residual does not repeat
@@ -38,7 +39,11 @@ Eigen::Index rows_alike(const Frame& frame, const Eigen::ArrayXd& residual);
 /// keep their size. 1000 rows of a recording stay, where it has them.
 Eigen::ArrayXd weights_of_fit(const Frame& frame, const Eigen::ArrayXd& weight, Eigen::Index alike);
 
-/// Weights 1/level of usable rows.
-Eigen::ArrayXd weights_of(const Frame& frame, Equation equation, const std::vector<double>& level);
+/// Standard deviation of an equation's residual by row, Nm: of its noise and of what the error of
+/// the rate does.
+Eigen::ArrayXd deviation_of(const Frame& frame, const EquationNoise& noise);
+
+/// Weights 1/deviation of usable rows.
+Eigen::ArrayXd weights_of(const Frame& frame, Equation equation, const EquationNoise& noise);
 
 }  // namespace flexspline::studies

@@ -171,6 +171,7 @@ Result<void> smooth_torsion(double ratio, const Recording& recording, DriveChann
   channels.torsion = std::move(smooth->torsion);
   channels.torsion_rate = std::move(smooth->torsion_rate);
   channels.torsion_acceleration = std::move(smooth->torsion_acceleration);
+  channels.torsion_rate_error = std::move(smooth->torsion_rate_error);
   return {};
 }
 

@@ -147,12 +147,9 @@ HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const Caus
     if (!frame.has(equation)) continue;
     const std::size_t e = index_of(equation);
     const EquationNoise& noise = findings.noise[e];
-    const ArrayXd rows = held * frame.rows_of(equation);
-    if (rows.sum() == 0.0) continue;
-    const double independent = rows.sum() / noise.colour;
-    const double over_noise = rms_on(residual[e], rows) / noise_on(frame, noise.level, rows);
-    misfit.chi_square += independent * over_noise * over_noise;
-    misfit.noise += independent;
+    const ArrayXd weight = held * weights_of(frame, equation, noise);
+    misfit.chi_square += (residual[e] * weight).square().sum() / noise.colour;
+    misfit.noise += static_cast<double>((weight > 0.0).count()) / noise.colour;
   }
   return misfit;
 }
@@ -238,7 +235,7 @@ Result<Proof> prove(const Frame& frame, const Selection& s, unsigned threads) {
   h.rmse_before = rms_on(pool.base[e], judged);
   h.rmse_after = rms_on(pool.final[e], judged);
   h.ratio = h.rmse_after / h.rmse_before;
-  h.noise_floor = noise_on(frame, s.final.noise[e].level, judged);
+  h.noise_floor = noise_on(frame, s.final.noise[e], judged);
   proof.rmse_train_before = std::sqrt(pool.train_before / pool.train_rows);
   proof.rmse_train_after = std::sqrt(pool.train_after / pool.train_rows);
   take_interval(frame, judged, pool.base[e], pool.final[e], h);

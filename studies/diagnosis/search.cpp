@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/motor_sign.hpp"
+#include "diagnosis/rate_error.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -92,13 +93,27 @@ double rows_weighted(const Findings& findings, Equation equation) {
 
 using Noise = std::array<EquationNoise, 3>;
 
+// A residual as it would be if the rate had no error; NaN where that does more than noise.
+ArrayXd with_noise_alone(const Frame& frame, const ArrayXd& residual, const ArrayXd& of_rate,
+                         std::vector<double> level) {
+  if (of_rate.size() == 0) return residual;
+  if (level.empty()) level = noise_levels(frame, residual);
+  EquationNoise noise{.level = std::move(level)};
+  const ArrayXd alone = deviation_of(frame, noise);
+  noise.of_rate = of_rate;
+  return (of_rate > alone).select(kNotComputed, residual * alone / deviation_of(frame, noise));
+}
+
 Noise measured_noise(const Frame& frame, const Findings& findings) {
   Noise noise;
+  PerEquation of_rate = torque_of_rate_error(frame, findings.fit.model, findings.reference);
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    const ArrayXd residual = frame.judged_part(equation, findings.fit.residual[e]);
+    const ArrayXd residual =
+        with_noise_alone(frame, frame.judged_part(equation, findings.fit.residual[e]), of_rate[e],
+                         findings.noise[e].level);
     noise[e] = {noise_levels(frame, residual), noise_colour(frame, residual),
-                rows_alike(frame, residual)};
+                rows_alike(frame, residual), std::move(of_rate[e])};
   }
   return noise;
 }
@@ -106,7 +121,7 @@ Noise measured_noise(const Frame& frame, const Findings& findings) {
 void take_noise(const Frame& frame, Noise noise, Findings& findings) {
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
-    findings.weight[e] = weights_of(frame, equation, noise[e].level);
+    findings.weight[e] = weights_of(frame, equation, noise[e]);
     findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], noise[e].alike);
   }
   findings.noise = std::move(noise);

@@ -26,7 +26,7 @@ HoldoutProof proof_of_part(const Frame& frame, const Findings& final, const Proo
   h.rmse_before = rms_on(before, held);
   h.rmse_after = rms_on(after, held);
   h.ratio = h.rmse_after / h.rmse_before;
-  h.noise_floor = noise_on(frame, final.noise[e].level, held);
+  h.noise_floor = noise_on(frame, final.noise[e], held);
   take_interval(frame, held, before, after, h);
   return h;
 }

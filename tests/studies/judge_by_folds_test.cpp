@@ -52,8 +52,8 @@ TEST_F(JudgeByFolds, TheirErrorsOverTheNoiseAreTaken) {
   judge_by_folds(frame_, {fold(true)}, found_);
   const std::size_t e = index_of(Equation::torsion);
   EXPECT_NEAR(evidence().over_noise / evidence().before_over_noise,
-              rms_on(s_.final.fit.residual[e], frame_.usable) /
-                  rms_on(s_.baseline.fit.residual[e], frame_.usable),
+              rms_on(s_.final.fit.residual[e] * s_.final.weight[e], frame_.usable) /
+                  rms_on(s_.baseline.fit.residual[e] * s_.final.weight[e], frame_.usable),
               1e-12);
   const auto named = with_probable_names(found_, limits_);
   ASSERT_TRUE(named) << named.error().message();

@@ -70,7 +70,7 @@ TEST(Noise, RowsOfAnAutoregressionAreAlikeUntilHalfOfItIsForgotten) {
 TEST(Noise, OneRowOfThoseThatAreAlikeStandsForAll) {
   Frame frame = closed_form_frame(8000);
   frame.usable.head(100).setZero();
-  const ArrayXd weight = weights_of(frame, Equation::torsion, {0.5, 0.4});
+  const ArrayXd weight = weights_of(frame, Equation::torsion, {.level = {0.5, 0.4}});
   EXPECT_TRUE((weights_of_fit(frame, weight, 1) == weight).all());
   const ArrayXd few = weights_of_fit(frame, weight, 2);
   EXPECT_EQ((few.tail(4000) > 0.0).count(), 2000);
@@ -106,7 +106,7 @@ TEST(Noise, RowsThatAreNotUsableWeighNothingAndDoNotCount) {
   const auto clean = noise_levels(frame, residual);
   residual.segment(1000, 300) += 1e6;
   EXPECT_EQ(noise_levels(frame, residual), clean);
-  const ArrayXd weight = weights_of(frame, Equation::torsion, {0.25, 0.5});
+  const ArrayXd weight = weights_of(frame, Equation::torsion, {.level = {0.25, 0.5}});
   EXPECT_EQ(weight.segment(1000, 300).abs().maxCoeff(), 0.0);
   EXPECT_EQ(weight[999], 4.0);
   EXPECT_EQ(weight[frame.rows() - 1], 2.0);

@@ -94,10 +94,11 @@ const Recording& named(const RecordingSet& set, const std::string& id) {
   return *std::ranges::find(set.recordings, id, &Recording::id);
 }
 
-/// Rms over usable rows of simulation less prediction, over the noise of the equation.
+/// Rms over usable rows of simulation less prediction, over the deviation that the equation has.
 double apart(const Fitted& fit, const ModelFit& expected, const RigModel& model,
              Equation equation) {
   const std::size_t e = index_of(equation);
+  const ArrayXd deviation = deviation_of(fit.frame, fit.findings.noise[e]);
   double squares = 0.0;
   double rows = 0.0;
   for (std::size_t s = 0; s < fit.frame.segments.size(); ++s) {
@@ -107,10 +108,10 @@ double apart(const Fitted& fit, const ModelFit& expected, const RigModel& model,
     if (!torque || torque->size() != segment.count) return std::nan("");
     const Index count = segment.count - 2 * kEnd;
     const Index first = segment.first + kEnd;
-    const double noise = fit.findings.noise[e].level[s];
     const ArrayXd usable = fit.frame.usable.segment(first, count);
     const ArrayXd difference =
-        (torque->segment(kEnd, count) - expected.prediction[e].segment(first, count)) / noise;
+        (torque->segment(kEnd, count) - expected.prediction[e].segment(first, count)) /
+        deviation.segment(first, count);
     squares += (difference.square() * usable).sum();
     rows += usable.sum();
   }
@@ -123,6 +124,12 @@ RigModel through_a_file(const RigModel& model) {
   return back ? *back : RigModel{};
 }
 
+// Of a free rig's torsion the fit takes what it is smoothed to, a simulation the difference of two
+// angles that are smoothed apart.
+double most_apart(const Fitted& fit, Equation equation) {
+  return fit.frame.rig == Rig::free && equation == Equation::torsion ? 0.15 : 0.05;
+}
+
 bool is_simulated(Equation equation) { return equation != Equation::load; }
 
 class WrittenModel : public testing::TestWithParam<WrittenCase> {};
@@ -133,7 +140,8 @@ TEST_P(WrittenModel, OfTheBaselineLeavesItsResidual) {
   const RigModel model = through_a_file(written.model);
   for (Equation equation : fit.frame.equations) {
     if (!is_simulated(equation)) continue;
-    EXPECT_LT(apart(fit, fit.findings.fit, model, equation), 0.05) << name_of(equation);
+    EXPECT_LT(apart(fit, fit.findings.fit, model, equation), most_apart(fit, equation))
+        << name_of(equation);
   }
 }
 

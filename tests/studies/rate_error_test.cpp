@@ -1,0 +1,78 @@
+// What an error of the torsion's rate does to a model that turns on it.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/rate_error.hpp"
+#include "diagnosis/search.hpp"
+#include "drive_frame.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+
+constexpr double kNoise = 0.1;  // Nm
+constexpr double kLoss = 2.0;   // Nm
+constexpr std::size_t kTorsion = 0;
+
+ArrayXd normal(Eigen::Index rows, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> one;
+  return ArrayXd::NullaryExpr(rows, [&] { return one(random); });
+}
+
+double width(const Frame& f) { return 0.1 * f.rate_range; }
+
+ArrayXd loss(const Frame& f, const ArrayXd& rate) { return kLoss * (rate / width(f)).tanh(); }
+
+/// A spring with hysteresis tau = K phi + c tanh(v/w), v known to the share given of w.
+Frame hysteretic(double error) {
+  Frame f = closed_form_frame();
+  f.equations = {Equation::torsion};
+  f.torque = 2e4 * f.torsion + loss(f, f.torsion_rate) + kNoise * normal(f.rows(), 3);
+  f.torque_range = f.torque.abs().maxCoeff();
+  f.torsion_rate += error * width(f) * normal(f.rows(), 4);
+  return f;
+}
+
+TEST(RateError, IsWhatTheModelChangesByWithinIt) {
+  Frame f = hysteretic(0.0);
+  const Findings findings = *fit_baseline(f);
+  const double s = 0.5 * width(f);
+  EXPECT_EQ(torque_of_rate_error(f, findings.fit.model, findings.reference)[kTorsion].size(), 0);
+  f.torsion_rate_error = ArrayXd::Constant(f.rows(), s);
+  const ArrayXd torque = torque_of_rate_error(f, findings.fit.model, findings.reference)[kTorsion];
+  const ArrayXd law = 0.5 * (loss(f, f.torsion_rate + s) - loss(f, f.torsion_rate - s));
+  // The law is a mixture of a few widths, fitted to noise: a twentieth of what it turns by.
+  EXPECT_LT((torque - law).abs().maxCoeff(), 0.05 * kLoss);
+  EXPECT_GT(torque.maxCoeff(), 0.4 * kLoss) << "tanh(1/2) where the rate is zero";
+}
+
+// To a tenth: over an error of half the width the law is no straight line.
+TEST(RateError, IsNoNoise) {
+  const double error = 0.5;
+  Frame f = hysteretic(error);
+  const Findings blind = *fit_baseline(f);
+  f.torsion_rate_error = ArrayXd::Constant(f.rows(), error * width(f));
+  const Findings findings = *fit_baseline(f);
+  for (std::size_t i = 0; i < f.segments.size(); ++i) {
+    EXPECT_GT(blind.noise[kTorsion].level[i], 1.5 * kNoise);
+    EXPECT_NEAR(findings.noise[kTorsion].level[i], kNoise, 0.1 * kNoise);
+  }
+  // Where the rate turns, the rows weigh by what is known there.
+  const ArrayXd turns = (f.torsion_rate.abs() < width(f)).cast<double>();
+  const ArrayXd over = findings.fit.residual[kTorsion] * findings.weight[kTorsion];
+  EXPECT_NEAR((over.square() * turns).sum() / turns.sum(), 1.0, 0.3);
+}
+
+TEST(RateError, OfAServoIsNotAskedFor) {
+  Frame f = drawn_frame(Rig::servo);
+  const Findings findings = *fit_baseline(f);
+  for (const ArrayXd& one : torque_of_rate_error(f, findings.fit.model, findings.reference)) {
+    EXPECT_EQ(one.size(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace flexspline::studies
