@@ -20,11 +20,19 @@ using Sparse = Eigen::SparseMatrix<double>;
 using BandedSolver = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 constexpr std::size_t kFewestSamples = 16;
-constexpr std::size_t kMostIntervals = 20000;  // fewer than samples only where these are more
 constexpr int kProbes = 6;
-// Of a degree of freedom in cross-validation. At 1, with as many knots as samples, it now and then
-// interpolates noise that is not white, as the counts of an encoder are.
-constexpr double kCost = 1.1;
+
+/// How closely a spline may follow its samples.
+struct Resolution {
+  std::size_t samples_per_interval;
+  std::size_t most_intervals;
+  double cost;  ///< of a degree of freedom, in cross-validation
+};
+
+constexpr Resolution kEven = {3, 3000, 1.0};
+// At a cost of 1, with as many knots as samples, cross-validation now and then interpolates noise
+// that is not white, as the counts of an encoder are.
+constexpr Resolution kFine = {1, 20000, 1.1};
 
 Sparse design(std::span<const double> time, const CubicBasis& basis) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -200,15 +208,19 @@ Result<void> check_samples(std::span<const double> time,
   return {};
 }
 
-Result<std::vector<SmoothSignal>> smooth_by_splines(
-    std::span<const double> time, std::span<const std::span<const double>> signals) {
+namespace {
+
+Result<std::vector<SmoothSignal>> smooth_at(const Resolution& resolution,
+                                            std::span<const double> time,
+                                            std::span<const std::span<const double>> signals) {
   if (auto sound = check_samples(time, signals); !sound) return tl::unexpected(sound.error());
-  const std::size_t intervals = std::clamp<std::size_t>(time.size(), 4, kMostIntervals);
+  const std::size_t intervals = std::clamp<std::size_t>(
+      time.size() / resolution.samples_per_interval, 4, resolution.most_intervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
   Equations equations(time, basis, signals);
   std::vector<Penalised> best(signals.size());
   for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
-    try_penalty(equations, std::pow(10.0, exponent), kCost, best);
+    try_penalty(equations, std::pow(10.0, exponent), resolution.cost, best);
   }
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < signals.size(); ++s) {
@@ -226,9 +238,16 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
   return smooth;
 }
 
+}  // namespace
+
+Result<std::vector<SmoothSignal>> smooth_by_splines(
+    std::span<const double> time, std::span<const std::span<const double>> signals) {
+  return smooth_at(kEven, time, signals);
+}
+
 Result<SmoothSignal> smooth_by_spline(std::span<const double> time,
                                       std::span<const double> samples) {
-  auto smooth = smooth_by_splines(time, std::span(&samples, 1));
+  auto smooth = smooth_at(kFine, time, std::span(&samples, 1));
   if (!smooth) return tl::unexpected(smooth.error());
   return std::move(smooth->front());
 }

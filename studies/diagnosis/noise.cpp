@@ -196,7 +196,7 @@ ArrayXd weights_of_fit(const Frame& frame, const ArrayXd& weight, Index alike) {
 }
 
 ArrayXd deviation_of(const Frame& frame, const EquationNoise& noise) {
-  ArrayXd deviation(frame.rows());
+  ArrayXd deviation = ArrayXd::Zero(frame.rows());
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
     deviation.segment(s.first, s.count).setConstant(noise.level[i]);

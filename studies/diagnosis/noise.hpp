@@ -40,7 +40,7 @@ Eigen::Index rows_alike(const Frame& frame, const Eigen::ArrayXd& residual);
 Eigen::ArrayXd weights_of_fit(const Frame& frame, const Eigen::ArrayXd& weight, Eigen::Index alike);
 
 /// Standard deviation of an equation's residual by row, Nm: of its noise and of what the error of
-/// the rate does.
+/// the rate does (effective variance, Orear 1982); 0 outside the recordings.
 Eigen::ArrayXd deviation_of(const Frame& frame, const EquationNoise& noise);
 
 /// Weights 1/deviation of usable rows.
