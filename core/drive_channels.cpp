@@ -16,8 +16,9 @@ struct Smoothed {
   double* bandwidth = nullptr;
   Series* rate_error = nullptr;
 
-  Result<void> fill(const Recording& recording, const Series& samples) const {
-    auto smooth = smooth_by_spline(recording.time, samples);
+  Result<void> fill(const Recording& recording, const Series& samples,
+                    Resolution resolution) const {
+    auto smooth = smooth_by_spline(recording.time, samples, resolution);
     if (!smooth) return tl::unexpected(in_context(smooth.error(), "recording " + recording.id));
     value = std::move(smooth->value);
     rate = std::move(smooth->rate);
@@ -64,7 +65,8 @@ void follow_rigidly(double ratio, const Series& load, Series& motor) {
 }
 
 // Angles with their derivatives, as far as they were recorded.
-Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, DriveChannels& c) {
+Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording,
+                            Resolution resolution, DriveChannels& c) {
   const Series* torsion =
       rig == Rig::specimen
           ? first_of(recording, {Quantity::torsion, Quantity::displacement, Quantity::angle})
@@ -80,7 +82,7 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, D
        {c.torsion, c.torsion_rate, c.torsion_acceleration, nullptr, &c.torsion_rate_error}}};
   for (const auto& [samples, smoothed] : motions) {
     if (samples == nullptr) continue;
-    if (auto filled = smoothed.fill(recording, *samples); !filled) return filled;
+    if (auto filled = smoothed.fill(recording, *samples, resolution); !filled) return filled;
   }
   if (rig == Rig::servo && c.motor_angle.empty()) {
     follow_rigidly(ratio, c.load_angle, c.motor_angle);
@@ -93,10 +95,11 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording, D
 
 }  // namespace
 
-Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording) {
+Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording,
+                                     Resolution resolution) {
   DriveChannels c;
   c.time = recording.time;
-  if (auto smooth = smooth_motions(rig, drive.gear_ratio, recording, c); !smooth) {
+  if (auto smooth = smooth_motions(rig, drive.gear_ratio, recording, resolution, c); !smooth) {
     return tl::unexpected(smooth.error());
   }
   const Series* effort =

@@ -192,7 +192,7 @@ Result<Recording> torques_along(const RigModel& model, const Recording& recordin
     return failure(ErrorCode::bad_data, "a specimen has no shafts", "use simulate_torque");
   }
   if (auto there = angles_there(model, recording); !there) return tl::unexpected(there.error());
-  auto channels = drive_channels(model.rig, model.drive, recording);
+  auto channels = drive_channels(model.rig, model.drive, recording, resolution_on(model.rig));
   if (!channels) return tl::unexpected(channels.error());
   Along along{model, std::move(*channels), recording};
   for (Site site : {Site::motor_angle_signal, Site::load_angle_signal}) {

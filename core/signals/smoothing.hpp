@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flexspline/core/error.hpp"
+#include "flexspline/core/resolution.hpp"
 
 namespace flexspline {
 
@@ -30,16 +31,15 @@ Result<void> check_samples(std::span<const double> time,
                            std::span<const std::span<const double>> signals);
 
 /// Penalised cubic spline (Eilers and Marx 1996, third differences), the penalty by generalised
-/// cross-validation with a stochastic trace: a knot a sample, 20 000 at most, a degree of freedom at
-/// 1.1. Errors: those of check_samples.
-Result<SmoothSignal> smooth_by_spline(std::span<const double> time,
-                                      std::span<const double> samples);
+/// cross-validation with a stochastic trace. Even: a knot for three samples, 3000 at most. Fine:
+/// one for each, 20 000 at most, and a degree of freedom costs 1.1. Errors: those of check_samples.
+Result<SmoothSignal> smooth_by_spline(std::span<const double> time, std::span<const double> samples,
+                                      Resolution resolution = Resolution::even);
 
-/// The same of several signals sampled at the same instants, whose equations are shared; a knot for
-/// three samples, 3000 at most, a degree of freedom at 1: what a simulation is driven by, less than
-/// what is judged by the sample, may be noise.
+/// The same of several signals sampled at the same instants, whose equations are shared.
 Result<std::vector<SmoothSignal>> smooth_by_splines(
-    std::span<const double> time, std::span<const std::span<const double>> signals);
+    std::span<const double> time, std::span<const std::span<const double>> signals,
+    Resolution resolution = Resolution::even);
 
 /// Which harmonics a smooth signal keeps.
 enum class Harmonics {

@@ -22,17 +22,17 @@ using BandedSolver = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalO
 constexpr std::size_t kFewestSamples = 16;
 constexpr int kProbes = 6;
 
-/// How closely a spline may follow its samples.
-struct Resolution {
+struct Knots {
   std::size_t samples_per_interval;
   std::size_t most_intervals;
   double cost;  ///< of a degree of freedom, in cross-validation
 };
 
-constexpr Resolution kEven = {3, 3000, 1.0};
 // At a cost of 1, with as many knots as samples, cross-validation now and then interpolates noise
 // that is not white, as the counts of an encoder are.
-constexpr Resolution kFine = {1, 20000, 1.1};
+Knots knots_of(Resolution resolution) {
+  return resolution == Resolution::fine ? Knots{1, 20000, 1.1} : Knots{3, 3000, 1.0};
+}
 
 Sparse design(std::span<const double> time, const CubicBasis& basis) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -208,19 +208,18 @@ Result<void> check_samples(std::span<const double> time,
   return {};
 }
 
-namespace {
-
-Result<std::vector<SmoothSignal>> smooth_at(const Resolution& resolution,
-                                            std::span<const double> time,
-                                            std::span<const std::span<const double>> signals) {
+Result<std::vector<SmoothSignal>> smooth_by_splines(
+    std::span<const double> time, std::span<const std::span<const double>> signals,
+    Resolution resolution) {
   if (auto sound = check_samples(time, signals); !sound) return tl::unexpected(sound.error());
-  const std::size_t intervals = std::clamp<std::size_t>(
-      time.size() / resolution.samples_per_interval, 4, resolution.most_intervals);
+  const Knots knots = knots_of(resolution);
+  const std::size_t intervals =
+      std::clamp<std::size_t>(time.size() / knots.samples_per_interval, 4, knots.most_intervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
   Equations equations(time, basis, signals);
   std::vector<Penalised> best(signals.size());
   for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
-    try_penalty(equations, std::pow(10.0, exponent), resolution.cost, best);
+    try_penalty(equations, std::pow(10.0, exponent), knots.cost, best);
   }
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < signals.size(); ++s) {
@@ -238,16 +237,9 @@ Result<std::vector<SmoothSignal>> smooth_at(const Resolution& resolution,
   return smooth;
 }
 
-}  // namespace
-
-Result<std::vector<SmoothSignal>> smooth_by_splines(
-    std::span<const double> time, std::span<const std::span<const double>> signals) {
-  return smooth_at(kEven, time, signals);
-}
-
-Result<SmoothSignal> smooth_by_spline(std::span<const double> time,
-                                      std::span<const double> samples) {
-  auto smooth = smooth_at(kFine, time, std::span(&samples, 1));
+Result<SmoothSignal> smooth_by_spline(std::span<const double> time, std::span<const double> samples,
+                                      Resolution resolution) {
+  auto smooth = smooth_by_splines(time, std::span(&samples, 1), resolution);
   if (!smooth) return tl::unexpected(smooth.error());
   return std::move(smooth->front());
 }

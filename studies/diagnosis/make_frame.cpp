@@ -42,8 +42,9 @@ struct Channels {
 };
 
 // Smooth copy and rate of a torque, by the smoothing that motions get.
-void smooth_torque(const Recording& recording, const Series& torque, Series& smooth, Series& rate) {
-  const auto channels = smoothed(recording, torque);
+void smooth_torque(const Recording& recording, const Series& torque, Resolution resolution,
+                   Series& smooth, Series& rate) {
+  const auto channels = smoothed(recording, torque, resolution);
   if (!channels) return;
   smooth = channels->torsion;
   rate = channels->torsion_rate;
@@ -55,10 +56,12 @@ Result<Channels> channels_of(const RecordingSet& set, const Recording& recording
   if (!drive) return tl::unexpected(drive.error());
   Channels c{&recording, std::move(*drive), {}, {}, {}, {}};
   if (!c.drive.transmitted_torque.empty()) {
-    smooth_torque(recording, c.drive.transmitted_torque, c.smooth_torque, c.torque_rate);
+    smooth_torque(recording, c.drive.transmitted_torque, resolution_on(set.rig), c.smooth_torque,
+                  c.torque_rate);
   }
   if (!c.drive.motor_torque.empty()) {
-    smooth_torque(recording, c.drive.motor_torque, c.smooth_motor_torque, c.motor_torque_rate);
+    smooth_torque(recording, c.drive.motor_torque, resolution_on(set.rig), c.smooth_motor_torque,
+                  c.motor_torque_rate);
   }
   return c;
 }

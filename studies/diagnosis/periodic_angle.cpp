@@ -166,7 +166,7 @@ Result<void> smooth_torsion(double ratio, const Recording& recording, DriveChann
   for (std::size_t i = 0; i < motor->size(); ++i) {
     torsion.push_back((*motor)[i] / ratio - (*load)[i]);
   }
-  auto smooth = smoothed(recording, std::move(torsion));
+  auto smooth = smoothed(recording, std::move(torsion), Resolution::fine);
   if (!smooth) return tl::unexpected(smooth.error());
   channels.torsion = std::move(smooth->torsion);
   channels.torsion_rate = std::move(smooth->torsion_rate);
@@ -176,7 +176,7 @@ Result<void> smooth_torsion(double ratio, const Recording& recording, DriveChann
 }
 
 Result<DriveChannels> smooth_channels(const RecordingSet& set, const Recording& recording) {
-  auto channels = drive_channels(set.rig, unit_drive(set), recording);
+  auto channels = drive_channels(set.rig, unit_drive(set), recording, resolution_on(set.rig));
   if (!channels || set.rig != Rig::free) return channels;
   if (auto torsion = smooth_torsion(ratio_of(set), recording, *channels); !torsion) {
     return tl::unexpected(torsion.error());

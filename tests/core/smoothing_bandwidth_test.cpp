@@ -34,8 +34,8 @@ struct Pair {
 // Amplitude of the sine in what smoothing makes of it, over that of the sine.
 double kept(double rate, double noise, double& bandwidth) {
   const Pair pair(rate, noise);
-  const auto plain = smooth_by_spline(pair.time, pair.plain);
-  const auto with = smooth_by_spline(pair.time, pair.with);
+  const auto plain = smooth_by_spline(pair.time, pair.plain, Resolution::fine);
+  const auto with = smooth_by_spline(pair.time, pair.with, Resolution::fine);
   if (!plain || !with) return NAN;
   bandwidth = plain->bandwidth;
   double sine = 0.0, cosine = 0.0, count = 0.0;

@@ -21,7 +21,7 @@ SmoothSignal smoothed(const std::function<double(double)>& measured) {
     time.push_back(instant(i));
     samples.push_back(measured(instant(i)));
   }
-  auto smooth = smooth_by_spline(time, samples);
+  auto smooth = smooth_by_spline(time, samples, Resolution::fine);
   EXPECT_TRUE(smooth.has_value());
   return smooth ? *std::move(smooth) : SmoothSignal{};
 }

@@ -56,7 +56,7 @@ double constant(const RecordingSet& set, const std::string& key) {
 
 /// The torsion of a recording, smoothed as a diagnosis smooths it.
 Motion motion_of(const RecordingSet& set, const Recording& recording) {
-  const auto channels = drive_channels(set.rig, {}, recording);
+  const auto channels = drive_channels(set.rig, {}, recording, resolution_on(set.rig));
   EXPECT_TRUE(channels);
   const DriveChannels& c = *channels;
   if (set.rig == Rig::specimen) return {c.time, c.torsion, c.torsion_rate, c.torsion_acceleration};

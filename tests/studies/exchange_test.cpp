@@ -20,12 +20,14 @@ Trial on_top(const Frame& frame, const Findings& findings, const char* id) {
 Selection searched(const Frame& frame, const char* first, const char* alternative) {
   Selection s;
   s.final = *fit_baseline(frame);
-  Accepted one{.trial = on_top(frame, s.final, first)};
+  Accepted one;
+  one.trial = on_top(frame, s.final, first);
   one.rivals = {on_top(frame, s.final, alternative)};
   s.final.fit = one.trial.fit;
   s.accepted.push_back(std::move(one));
   EXPECT_TRUE(refresh(frame, s.final, 8));
-  Accepted two{.trial = on_top(frame, s.final, "stribeck_friction")};
+  Accepted two;
+  two.trial = on_top(frame, s.final, "stribeck_friction");
   s.final.fit = two.trial.fit;
   s.accepted.push_back(std::move(two));
   EXPECT_TRUE(refresh(frame, s.final, 8));

@@ -33,7 +33,7 @@ Recording turned() {
   for (int i = 0; i < 2000; ++i) {
     const double t = kSample * i;
     recording.time.push_back(t);
-    recording.channels[Quantity::motor_angle].push_back(theta + 4e-3 * std::sin(1e4 * t * t));
+    recording.channels[Quantity::motor_angle].push_back(theta + 2e-3 * std::sin(1e4 * t * t));
     recording.channels[Quantity::motor_torque].push_back(torque(t));
     for (int k = 0; k < kSteps; ++k) {
       const double at = t + h * k;
@@ -82,7 +82,7 @@ TEST(FollowedRipple, IsWhatTheSmoothedAccelerationLeaves) {
   frame.speed_range = frame.motor_speed.abs().maxCoeff();
   frame.time = array(channels->time);
   frame.segments = {{"turn", 0, frame.time.size()}};
-  ASSERT_GT(kOrder * frame.motor_speed.maxCoeff(), 1.2 * channels->motor_bandwidth)
+  ASSERT_GT(kOrder * frame.motor_speed.maxCoeff(), 1.3 * channels->motor_bandwidth)
       << "the ripple has to be too fast for the smoothing";
   const ArrayXd residual = array(channels->motor_torque) -
                            kInertia * array(channels->motor_acceleration) -

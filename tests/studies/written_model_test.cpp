@@ -66,7 +66,7 @@ Fitted fitted(const WrittenCase& one) {
 
 /// The torsion of a recording, smoothed as a diagnosis smooths it.
 Motion motion_of(const RecordingSet& set, const Recording& recording) {
-  const auto c = drive_channels(set.rig, {}, recording);
+  const auto c = drive_channels(set.rig, {}, recording, resolution_on(set.rig));
   EXPECT_TRUE(c);
   return {c->time, c->torsion, c->torsion_rate, c->torsion_acceleration};
 }
@@ -152,7 +152,8 @@ TEST_P(WrittenModel, LeavesTheLoadsResidual) {
   const RigModel model = through_a_file(specify(fit.frame, fit.findings.fit.model).model);
   const auto& expected = fit.findings.fit.residual[index_of(Equation::load)];
   for (const Segment& segment : fit.frame.segments) {
-    const auto channels = drive_channels(fit.set.rig, model.drive, named(fit.set, segment.id));
+    const auto channels = drive_channels(fit.set.rig, model.drive, named(fit.set, segment.id),
+                                         resolution_on(fit.set.rig));
     ASSERT_TRUE(channels);
     const auto left = residuals(fit.set.rig, model.drive, *channels);
     ASSERT_TRUE(left);

@@ -7,6 +7,7 @@
 #include "flexspline/core/drive_spec.hpp"
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/recording.hpp"
+#include "flexspline/core/resolution.hpp"
 
 namespace flexspline {
 
@@ -51,6 +52,7 @@ Result<DriveResiduals> residuals(Rig rig, const DriveSpec& drive, const DriveCha
 /// A recording's channels, angles smoothed by a penalised spline for their derivatives. On the
 /// locked rig the load rests. current becomes motor torque by kt, duty_cycle by kt (V - ke
 /// omega)/R. Errors: fewer than 16 samples.
-Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording);
+Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording,
+                                     Resolution resolution = Resolution::even);
 
 }  // namespace flexspline
