@@ -101,7 +101,9 @@ ArrayXd with_noise_alone(const Frame& frame, const ArrayXd& residual, const Arra
   EquationNoise noise{.level = std::move(level)};
   const ArrayXd alone = deviation_of(frame, noise);
   noise.of_rate = of_rate;
-  return (of_rate > alone).select(kNotComputed, residual * alone / deviation_of(frame, noise));
+  const ArrayXd scaled =
+      (of_rate > 0.0).select(residual * alone / deviation_of(frame, noise), residual);
+  return (of_rate > alone).select(kNotComputed, scaled);
 }
 
 Noise measured_noise(const Frame& frame, const Findings& findings) {
