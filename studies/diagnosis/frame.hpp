@@ -71,7 +71,8 @@ struct Frame {
   Eigen::ArrayXd motor_bandwidth;  ///< DriveChannels::motor_bandwidth; empty: nothing is smoothed
   Eigen::ArrayXd load_angle, load_speed, load_acceleration;
   Eigen::ArrayXd torsion, torsion_rate, torsion_acceleration;
-  Eigen::ArrayXd torsion_rate_error;          ///< standard deviation by row; empty: not known
+  /// Standard deviations by row; empty: not known. On a locked rig the two are one.
+  Eigen::ArrayXd motor_speed_error, torsion_rate_error;
   Eigen::ArrayXd torque;                      ///< measured, across the transmission
   Eigen::ArrayXd smooth_torque, torque_rate;  ///< the same, smoothed
   Eigen::ArrayXd told_torque;                 ///< as the torsion tells it: told_torque(); of drives

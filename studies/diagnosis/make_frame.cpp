@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/baseline.hpp"
+#include "diagnosis/counted.hpp"
 #include "diagnosis/middle.hpp"
 #include "diagnosis/model_columns.hpp"
 #include "diagnosis/periodic_angle.hpp"
@@ -120,9 +121,8 @@ class FrameMaker {
     put(frame_.load_acceleration, d.load_acceleration);
     put(frame_.torsion, d.torsion), put(frame_.torsion_rate, d.torsion_rate);
     put(frame_.torsion_acceleration, d.torsion_acceleration);
-    const bool wound = d.torsion_rate_error.empty();  // a motor against a load that rests
-    put(frame_.torsion_rate_error, wound ? d.motor_speed_error : d.torsion_rate_error);
-    if (wound) frame_.torsion_rate_error.segment(at_, count) /= frame_.ratio;
+    put(frame_.motor_speed_error, d.motor_speed_error);
+    put(frame_.torsion_rate_error, d.torsion_rate_error);
     put(frame_.torque, d.transmitted_torque), put(frame_.smooth_torque, c.smooth_torque);
     put(frame_.torque_rate, c.torque_rate), put(frame_.motor_torque, d.motor_torque);
     put(frame_.smooth_motor_torque, c.smooth_motor_torque);
@@ -133,6 +133,7 @@ class FrameMaker {
       frame_.velocity.segment(at_, count) = kNotComputed;
     }
     mark_usable(*c.recording, count, stride);
+    put(frame_.motor_slides, counted_motor(c));
     frame_.segments.push_back({c.recording->id, at_, count, c.recording->split});
     at_ += count;
   }
@@ -142,7 +143,7 @@ class FrameMaker {
     centre_recordings();
     centre_together();
     measure_ranges();
-    frame_.motor_slides = motor_slides(frame_);
+    frame_.motor_slides *= motor_slides(frame_);
     leave_out_starts();
     leave_out_hidden_motor();
     if (frame_.rig == Rig::locked || frame_.rig == Rig::free)
@@ -168,6 +169,7 @@ class FrameMaker {
             &f.torsion,
             &f.torsion_rate,
             &f.torsion_acceleration,
+            &f.motor_speed_error,
             &f.torsion_rate_error,
             &f.torque,
             &f.smooth_torque,
@@ -176,7 +178,16 @@ class FrameMaker {
             &f.smooth_motor_torque,
             &f.motor_torque_rate,
             &f.velocity,
-            &f.usable};
+            &f.usable,
+            &f.motor_slides};
+  }
+
+  // By the encoder that tells the motor's angle: its own, or the load's of a servo.
+  static Series counted_motor(const Channels& c) {
+    const Series* angle = c.recording->find(Quantity::motor_angle);
+    if (angle == nullptr) angle = c.recording->find(Quantity::load_angle);
+    if (angle == nullptr) return Series(c.recording->time.size(), 1.0);
+    return counted(c.recording->time, *angle, c.drive.motor_bandwidth);
   }
 
   void mark_usable(const Recording& recording, Index count, Index stride) {
@@ -205,6 +216,7 @@ class FrameMaker {
     if (f.rig == Rig::servo) f.hang_pendulum();
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;
+    f.torsion_rate_error = f.motor_speed_error / f.ratio;
     f.torsion_acceleration = f.motor_acceleration / f.ratio - f.load_acceleration;
   }
 

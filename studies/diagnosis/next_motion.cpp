@@ -43,6 +43,7 @@ Frame empty_like(const Frame& like, Index rows) {
     channel->setZero(rows);
   }
   f.motor_bandwidth.resize(0);
+  f.motor_speed_error.resize(0);
   f.torsion_rate_error.resize(0);
   f.motor_slides.resize(0);
   f.velocity = ArrayXd::Constant(rows, kNotComputed);

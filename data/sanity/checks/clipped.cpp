@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "sanity/check.hpp"
 
@@ -20,6 +22,9 @@ constexpr std::size_t kLeastRow = 4;
 constexpr double kAgainstLevels = 4.0;  // times as many as at any of the levels next to it
 constexpr std::size_t kLevels = 12;
 constexpr double kPartnerMoves = 0.08;  // of its range, while the channel is at its extreme
+constexpr std::size_t kFlank = 8;       // samples beside a row that tell speed and deceleration
+constexpr double kTurnsWithin = 0.5;    // of the row: the time in which what was cut off turns
+constexpr double kHidden = 2.0;         // levels: what was cut off is more than rounding
 
 struct AtExtreme {
   double value = 0.0;
@@ -56,6 +61,74 @@ std::size_t at_levels_beside(const Series& values, double extreme, bool top) {
   return most;
 }
 
+/// A motion beside a row at its extreme, by least squares: k samples away it has gone
+/// c + v k + a k^2/2, v in the direction of the extreme.
+struct Flank {
+  double speed = 0.0;
+  double deceleration = 0.0;
+};
+
+Flank flank_of(const std::vector<double>& gone) {
+  const auto n = static_cast<Eigen::Index>(gone.size());
+  const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5);
+  Eigen::MatrixXd columns(n, 3);
+  columns << Eigen::VectorXd::Ones(n), k.matrix(), (0.5 * k.square()).matrix();
+  const Eigen::VectorXd b =
+      columns.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(gone.data(), n));
+  return {b[1], b[2]};
+}
+
+/// Whether a row of n samples hides a turn: a motion that comes to an extreme at speed v and is
+/// slowed down by a turns 2 v/a samples later, v n/4 beyond what is seen. A motion that stops
+/// there, as a motor that sticks does, comes with none.
+bool hides_a_turn(const Flank& flank, double row, double level) {
+  if (!(flank.speed > 0.0) || flank.speed * row / 4.0 < kHidden * level) return false;
+  return 2.0 * flank.speed >= kTurnsWithin * row * flank.deceleration;
+}
+
+/// Least distance between two of the levels next to the extreme.
+double level_beside(const Series& values, double extreme, bool top) {
+  std::vector<double> distinct;
+  for (const double value : values) distinct.push_back(top ? extreme - value : value - extreme);
+  std::ranges::sort(distinct);
+  distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < std::min(distinct.size(), kLevels); ++i) {
+    least = std::min(least, distinct[i] - distinct[i - 1]);
+  }
+  return least;
+}
+
+/// Whether most of the rows at an extreme are come to, and left, by a motion that goes on beyond.
+bool goes_on_beyond(const Series& values, double extreme, bool top) {
+  const double level = level_beside(values, extreme, top);
+  std::size_t flanks = 0;
+  std::size_t hiding = 0;
+  const auto take = [&](std::size_t row, const auto& at) {
+    std::vector<double> gone;
+    for (std::size_t k = 1; k <= std::max(kFlank, row); ++k) {
+      const double* const value = at(k);
+      if (value == nullptr || *value == extreme) break;
+      gone.push_back(std::abs(extreme - *value));
+    }
+    if (gone.size() < kFlank) return;
+    ++flanks;
+    hiding += hides_a_turn(flank_of(gone), static_cast<double>(row), level) ? 1 : 0;
+  };
+  for (std::size_t first = 0; first < values.size();) {
+    std::size_t last = first;
+    while (last < values.size() && values[last] == extreme) ++last;
+    if (const std::size_t row = last - first; row >= kLeastRow) {
+      take(row, [&](std::size_t k) { return k > first ? nullptr : &values[first - k]; });
+      take(row, [&](std::size_t k) {
+        return last + k > values.size() ? nullptr : &values[last + k - 1];
+      });
+    }
+    first = last + 1;
+  }
+  return 2 * hiding > flanks;
+}
+
 /// Range of another channel over the longest row, of its own.
 double partner_moves(const ObservedSet& all, const Recording& recording, Quantity quantity,
                      const AtExtreme& extreme) {
@@ -73,9 +146,10 @@ bool is_clipped(const ObservedSet& all, const Recording& recording, Quantity qua
                 const Series& values, const AtExtreme& extreme, bool top) {
   const std::size_t least = is_position(quantity) ? kLeastTurning : kLeastSamples;
   if (extreme.count < least || extreme.row < kLeastRow) return false;
-  if (is_position(quantity) && extreme.rows < 2) return false;  // what sticks stands once
+  if (is_position(quantity) && extreme.rows < 2) return false;  // what is parked stands once
   const auto beside = static_cast<double>(at_levels_beside(values, extreme.value, top));
   if (static_cast<double>(extreme.count) < kAgainstLevels * beside) return false;
+  if (is_position(quantity) && !goes_on_beyond(values, extreme.value, top)) return false;
   return partner_moves(all, recording, quantity, extreme) > kPartnerMoves;
 }
 

@@ -23,6 +23,28 @@ constexpr double kLoaded =
     0.3;  // of the largest range of torque: below it noise flattens the slope
 constexpr double kClear = 20.0;  // standard errors, of white noise
 
+double left_by(const Regression& fit, const ArrayXd& y, const ArrayXd& usable) {
+  const double mean = (y * usable).sum() / std::max(usable.sum(), 1.0);
+  return (1.0 - fit.explained) * ((y - mean) * usable).square().sum();
+}
+
+/// The motor torque over J theta'' + tau/N where that leaves less than an error of tau alone does:
+/// where a motor turns mostly its own inertia, a small error of its torque is a large one of tau's.
+Regression slope_of(const Observed& o, double ratio, double inertia) {
+  const ArrayXd transmitted = o.effort / ratio;
+  const ArrayXd turning = inertia * o.motor_acceleration;
+  const auto beside_friction = [&](const ArrayXd& column, const ArrayXd& torque) {
+    return regression(
+        {column, o.motor_speed, smooth_sign(o.motor_speed), ArrayXd::Ones(o.time.size())}, torque,
+        o.usable);
+  };
+  const ArrayXd rest = o.drive - turning;
+  const Regression of_transmitted = beside_friction(transmitted, rest);
+  const Regression of_all = beside_friction(turning + transmitted, o.drive);
+  const bool all = left_by(of_all, o.drive, o.usable) < left_by(of_transmitted, rest, o.usable);
+  return all ? of_all : of_transmitted;
+}
+
 /// Slope of the motor torque over tau/N beside inertia and frictions: 1, but for the losses. The
 /// inertia is free only where it is not stated: a load's is much like it.
 std::vector<Factor> slopes(const ObservedSet& all) {
@@ -35,15 +57,11 @@ std::vector<Factor> slopes(const ObservedSet& all) {
     if (range_of(o.effort) < kLoaded * widest) continue;
     if (o.effort.size() == 0 || o.motor_angle.size() == 0) continue;
     if (o.drive.size() == 0 || o.recording->find(Quantity::motor_torque) == nullptr) continue;
-    std::vector<ArrayXd> columns = {o.effort / ratio, o.motor_speed, smooth_sign(o.motor_speed),
-                                    ArrayXd::Ones(o.time.size())};
-    ArrayXd torque = o.drive;
-    if (inertia > 0.0) {
-      torque -= inertia * o.motor_acceleration;
-    } else {
-      columns.push_back(o.motor_acceleration);
-    }
-    const auto fit = regression(columns, torque, o.usable);
+    const auto fit = inertia > 0.0
+                         ? slope_of(o, ratio, inertia)
+                         : regression({o.effort / ratio, o.motor_speed, smooth_sign(o.motor_speed),
+                                       ArrayXd::Ones(o.time.size()), o.motor_acceleration},
+                                      o.drive, o.usable);
     if (std::abs(fit.coefficient[0]) < kClear * fit.error[0]) continue;
     list.push_back({o.recording->id, fit.coefficient[0]});
   }
