@@ -15,6 +15,7 @@ struct Smoothed {
   Series& second;
   double* bandwidth = nullptr;
   Series* rate_error = nullptr;
+  Series* second_error = nullptr;
 
   Result<void> fill(const Recording& recording, const Series& samples,
                     Resolution resolution) const {
@@ -24,6 +25,7 @@ struct Smoothed {
     rate = std::move(smooth->rate);
     second = std::move(smooth->second);
     if (rate_error != nullptr) *rate_error = std::move(smooth->rate_error);
+    if (second_error != nullptr) *second_error = std::move(smooth->second_error);
     if (bandwidth != nullptr) *bandwidth = smooth->bandwidth;
     return {};
   }
@@ -75,9 +77,10 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording,
   const std::pair<const Series*, Smoothed> motions[] = {
       {recording.find(Quantity::motor_angle),
        {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth,
-        &c.motor_speed_error}},
+        &c.motor_speed_error, &c.motor_acceleration_error}},
       {recording.find(Quantity::load_angle),
-       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth}},
+       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth, nullptr,
+        &c.load_acceleration_error}},
       {torsion,
        {c.torsion, c.torsion_rate, c.torsion_acceleration, nullptr, &c.torsion_rate_error}}};
   for (const auto& [samples, smoothed] : motions) {
@@ -88,6 +91,7 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording,
     follow_rigidly(ratio, c.load_angle, c.motor_angle);
     follow_rigidly(ratio, c.load_speed, c.motor_speed);
     follow_rigidly(ratio, c.load_acceleration, c.motor_acceleration);
+    follow_rigidly(ratio, c.load_acceleration_error, c.motor_acceleration_error);
     c.motor_bandwidth = load_bandwidth;
   }
   return {};

@@ -23,6 +23,8 @@ struct SmoothSignal {
   /// its change where the penalty is a ninth, rms within 1/bandwidth; of a spline. What is faster
   /// than the samples is not in it.
   std::vector<double> rate_error{};
+  /// The same of second; of white noise 1.76 times its own.
+  std::vector<double> second_error{};
 };
 
 /// Whether signals can be smoothed: 16 samples or more over a time that increases, and squares that

@@ -73,6 +73,7 @@ struct Frame {
   Eigen::ArrayXd torsion, torsion_rate, torsion_acceleration;
   /// Standard deviations by row; empty: not known. On a locked rig the two are one.
   Eigen::ArrayXd motor_speed_error, torsion_rate_error;
+  Eigen::ArrayXd motor_acceleration_error, load_acceleration_error;
   Eigen::ArrayXd torque;                      ///< measured, across the transmission
   Eigen::ArrayXd smooth_torque, torque_rate;  ///< the same, smoothed
   Eigen::ArrayXd told_torque;                 ///< as the torsion tells it: told_torque(); of drives
@@ -81,7 +82,7 @@ struct Frame {
   Eigen::ArrayXd motor_torque;                ///< recorded, at the motor shaft
   Eigen::ArrayXd smooth_motor_torque, motor_torque_rate;
   Eigen::ArrayXd usable;  ///< 1, or 0 where the bench spoiled the sample or smoothing has no hold
-  Eigen::ArrayXd motor_slides;  ///< motor_slides(); empty: 1 everywhere
+  Eigen::ArrayXd motor_slides;  ///< motor_slides() where counted(); empty: 1 everywhere
 
   double torsion_range = 0.0;  ///< largest |torsion|
   double lowest = 0.0;         ///< torsion, of all rows

@@ -7,7 +7,7 @@
 
 #include "diagnosis/held_out_error.hpp"
 #include "diagnosis/middle.hpp"
-#include "diagnosis/rate_error.hpp"
+#include "diagnosis/motion_error.hpp"
 #include "diagnosis/spelled.hpp"
 
 namespace flexspline::studies {
@@ -81,13 +81,13 @@ std::vector<double> levels_on(const Frame& frame, const Frame& searched,
 }
 
 Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Findings findings) {
-  const PerEquation of_rate =
-      torque_of_rate_error(frame, findings.fit.model, reference_of(frame, findings.fit.model));
+  const PerEquation of_motion =
+      torque_of_motion_error(frame, findings.fit.model, reference_of(frame, findings.fit.model));
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
     EquationNoise& noise = findings.noise[e];
     noise.level = levels_on(frame, searched, noise.level);
-    noise.of_rate = of_rate[e];
+    noise.of_motion = of_motion[e];
     findings.weight[e] = weights_of(frame, equation, noise);
     findings.fit_weight[e] = weights_of_fit(frame, findings.weight[e], findings.noise[e].alike);
   }

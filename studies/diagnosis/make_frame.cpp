@@ -123,6 +123,8 @@ class FrameMaker {
     put(frame_.torsion_acceleration, d.torsion_acceleration);
     put(frame_.motor_speed_error, d.motor_speed_error);
     put(frame_.torsion_rate_error, d.torsion_rate_error);
+    put(frame_.motor_acceleration_error, d.motor_acceleration_error);
+    put(frame_.load_acceleration_error, d.load_acceleration_error);
     put(frame_.torque, d.transmitted_torque), put(frame_.smooth_torque, c.smooth_torque);
     put(frame_.torque_rate, c.torque_rate), put(frame_.motor_torque, d.motor_torque);
     put(frame_.smooth_motor_torque, c.smooth_motor_torque);
@@ -170,6 +172,8 @@ class FrameMaker {
             &f.torsion_rate,
             &f.torsion_acceleration,
             &f.motor_speed_error,
+            &f.motor_acceleration_error,
+            &f.load_acceleration_error,
             &f.torsion_rate_error,
             &f.torque,
             &f.smooth_torque,

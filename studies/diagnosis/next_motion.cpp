@@ -43,6 +43,8 @@ Frame empty_like(const Frame& like, Index rows) {
     channel->setZero(rows);
   }
   f.motor_bandwidth.resize(0);
+  f.motor_acceleration_error.resize(0);
+  f.load_acceleration_error.resize(0);
   f.motor_speed_error.resize(0);
   f.torsion_rate_error.resize(0);
   f.motor_slides.resize(0);

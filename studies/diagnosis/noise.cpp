@@ -201,8 +201,8 @@ ArrayXd deviation_of(const Frame& frame, const EquationNoise& noise) {
     const Segment& s = frame.segments[i];
     deviation.segment(s.first, s.count).setConstant(noise.level[i]);
   }
-  if (noise.of_rate.size() == 0) return deviation;
-  return (deviation.square() + noise.of_rate.square()).sqrt();
+  if (noise.of_motion.size() == 0) return deviation;
+  return (deviation.square() + noise.of_motion.square()).sqrt();
 }
 
 ArrayXd weights_of(const Frame& frame, Equation equation, const EquationNoise& noise) {

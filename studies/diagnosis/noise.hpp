@@ -7,10 +7,10 @@ namespace flexspline::studies {
 /// Noise of one equation's residual, Nm. In all that follows a residual's rows that are NaN do not
 /// count, and are bridged by a line where a running parabola of their neighbours needs them.
 struct EquationNoise {
-  std::vector<double> level;  ///< standard deviation by segment, Nm
-  double colour = 1.0;        ///< long-run variance over variance: 1 for white noise
-  Eigen::Index alike = 1;     ///< rows over which it hardly changes
-  Eigen::ArrayXd of_rate{};   ///< torque_of_rate_error(), Nm by row; empty: none
+  std::vector<double> level;   ///< standard deviation by segment, Nm
+  double colour = 1.0;         ///< long-run variance over variance: 1 for white noise
+  Eigen::Index alike = 1;      ///< rows over which it hardly changes
+  Eigen::ArrayXd of_motion{};  ///< torque_of_motion_error(), Nm by row; empty: none
 };
 
 /// Standard deviation by recording. Where its motion repeats: of what the residual does not repeat
@@ -39,8 +39,8 @@ Eigen::Index rows_alike(const Frame& frame, const Eigen::ArrayXd& residual);
 /// keep their size. 1000 rows of a recording stay, where it has them.
 Eigen::ArrayXd weights_of_fit(const Frame& frame, const Eigen::ArrayXd& weight, Eigen::Index alike);
 
-/// Standard deviation of an equation's residual by row, Nm: of its noise and of what the error of
-/// the rate does (effective variance, Orear 1982); 0 outside the recordings.
+/// Standard deviation of an equation's residual by row, Nm: of its noise and of what errors of
+/// the motions do (effective variance, Orear 1982); 0 outside the recordings.
 Eigen::ArrayXd deviation_of(const Frame& frame, const EquationNoise& noise);
 
 /// Weights 1/deviation of usable rows.

@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "diagnosis/motion_error.hpp"
 #include "diagnosis/motor_sign.hpp"
-#include "diagnosis/rate_error.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -93,29 +93,29 @@ double rows_weighted(const Findings& findings, Equation equation) {
 
 using Noise = std::array<EquationNoise, 3>;
 
-// A residual as it would be if the rate had no error; NaN where that does more than noise.
-ArrayXd with_noise_alone(const Frame& frame, const ArrayXd& residual, const ArrayXd& of_rate,
+// A residual as it would be if motions had no error; NaN where that does more than noise.
+ArrayXd with_noise_alone(const Frame& frame, const ArrayXd& residual, const ArrayXd& of_motion,
                          std::vector<double> level) {
-  if (of_rate.size() == 0) return residual;
+  if (of_motion.size() == 0) return residual;
   if (level.empty()) level = noise_levels(frame, residual);
   EquationNoise noise{.level = std::move(level)};
   const ArrayXd alone = deviation_of(frame, noise);
-  noise.of_rate = of_rate;
+  noise.of_motion = of_motion;
   const ArrayXd scaled =
-      (of_rate > 0.0).select(residual * alone / deviation_of(frame, noise), residual);
-  return (of_rate > alone).select(kNotComputed, scaled);
+      (of_motion > 0.0).select(residual * alone / deviation_of(frame, noise), residual);
+  return (of_motion > alone).select(kNotComputed, scaled);
 }
 
 Noise measured_noise(const Frame& frame, const Findings& findings) {
   Noise noise;
-  PerEquation of_rate = torque_of_rate_error(frame, findings.fit.model, findings.reference);
+  PerEquation of_motion = torque_of_motion_error(frame, findings.fit.model, findings.reference);
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
     const ArrayXd residual =
-        with_noise_alone(frame, frame.judged_part(equation, findings.fit.residual[e]), of_rate[e],
+        with_noise_alone(frame, frame.judged_part(equation, findings.fit.residual[e]), of_motion[e],
                          findings.noise[e].level);
     noise[e] = {noise_levels(frame, residual), noise_colour(frame, residual),
-                rows_alike(frame, residual), std::move(of_rate[e])};
+                rows_alike(frame, residual), std::move(of_motion[e])};
   }
   return noise;
 }

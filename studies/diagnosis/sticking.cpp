@@ -49,8 +49,8 @@ std::string sticking_in_words(const Frame& frame) {
   const double share = 1.0 - frame.rows_of(Equation::motor).sum() / frame.usable.sum();
   return fmt::format(
       "the motor equation is not judged where the motor may stick, slower than {:.2g} % of its "
-      "largest speed or about to turn ({:.0f} % of the rows): there it takes any torque up to its "
-      "breakaway",
+      "largest speed, slower than its encoder tells or about to turn ({:.0f} % of the rows): there "
+      "it takes any torque up to its breakaway",
       100.0 * kSlowest, 100.0 * share);
 }
 

@@ -59,6 +59,19 @@ TEST(SmoothingError, OfNoiseIsTold) {
   }
 }
 
+// Of the second derivative a ninth of the penalty changes noise by 1.76 times itself.
+TEST(SmoothingError, OfAnAccelerationIsMoreThanItsNoise) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  const auto smooth = smoothed([&](double t) { return std::sin(2.0 * t) + normal(random); });
+  double real = 0.0, told = 0.0;
+  for (std::size_t i = 50; i + 50 < kSamples; ++i) {
+    real += std::pow(smooth.second[i] + 4.0 * std::sin(2.0 * instant(i)), 2.0);
+    told += std::pow(smooth.second_error[i], 2.0);
+  }
+  EXPECT_NEAR(std::sqrt(told / real), 1.76, 0.45);
+}
+
 // |t - 15|: the rate jumps, where no spline does. Within one part of the bandwidth it is wrong by
 // far more than elsewhere, and said to be.
 TEST(SmoothingError, IsLargestWhereAMotionTurnsAtOnce) {

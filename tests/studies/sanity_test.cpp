@@ -1,6 +1,8 @@
 #include "flexspline/data/sanity.hpp"
 
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +59,87 @@ TEST(Sanity, TheSameAnglesAreNoCopyTheSameTorquesAre) {
   set.recordings[1].channels = set.recordings[0].channels;
   set.recordings[1].time = set.recordings[0].time;
   EXPECT_TRUE(is_a_copy(set));
+}
+
+bool raises(const RecordingSet& set, std::string_view check) {
+  return std::ranges::any_of(sanity_of(set),
+                             [&](const SanityFinding& one) { return one.check == check; });
+}
+
+/// A locked drive under a sine, its angle read in the levels given. Stuck: dry friction holds the
+/// motor for a tenth of a second at each reversal, while its torque turns round.
+RecordingSet read_in_levels(double level, bool stuck) {
+  constexpr double kRate = 4.0, kHeld = 0.1, kTop = 0.2;
+  RecordingSet set;
+  set.rig = Rig::locked;
+  set.constants = {{"gear_ratio", 100.0}, {"motor_inertia_kgm2", 1e-4}};
+  Recording& r = set.recordings.emplace_back();
+  r.id = "sine";
+  const double half = std::numbers::pi / kRate;
+  for (double t = 0.0; t < 12.0; t += 2e-3) {
+    const double within = std::fmod(t, half + kHeld);
+    const double side = std::fmod(t, 2.0 * (half + kHeld)) < half + kHeld ? 1.0 : -1.0;
+    const double moved = stuck ? std::min(within, half) : t;
+    const double angle = (stuck ? side : 1.0) * kTop * std::cos(kRate * moved);
+    const double turned = stuck ? std::max(0.0, within - half) / kHeld : 0.0;
+    const double dry = stuck ? side * (2.0 * turned - 1.0) : std::sin(kRate * t) > 0.0 ? -1.0 : 1.0;
+    r.time.push_back(t);
+    r.channels[Quantity::motor_angle].push_back(level * std::round(angle / level));
+    r.channels[Quantity::transmitted_torque].push_back(100.0 * angle + 0.05 * std::sin(311.0 * t));
+    r.channels[Quantity::motor_torque].push_back(angle + 0.2 * dry + 1e-3 * std::sin(277.0 * t));
+  }
+  return set;
+}
+
+TEST(Sanity, AMotorThatSticksAtItsReversalsIsNotCutOff) {
+  for (const double level : {8e-4, 1e-6}) {
+    EXPECT_FALSE(raises(read_in_levels(level, true), "clipped")) << level;
+    RecordingSet cut = read_in_levels(level, false);
+    EXPECT_FALSE(raises(cut, "clipped")) << level;
+    for (double& angle : cut.recordings[0].channels.at(Quantity::motor_angle)) {
+      angle = std::clamp(angle, -0.18, 0.18);
+    }
+    EXPECT_TRUE(raises(cut, "clipped")) << level;
+  }
+}
+
+/// A free drive that turns mostly its motor, the motor's torque recorded by this factor, the
+/// transmitted one by that.
+RecordingSet mostly_motor(double of_motor, double of_transmitted) {
+  constexpr double kRatio = 100.0, kMotor = 1e-3, kLoad = 2.0;
+  RecordingSet set;
+  set.rig = Rig::free;
+  set.constants = {{"gear_ratio", kRatio}, {"motor_inertia_kgm2", kMotor}};
+  for (const double rate : {2.0, 3.0}) {
+    Recording& r = set.recordings.emplace_back();
+    r.id = "sine-" + std::to_string(rate);
+    r.start_s = 20.0 * rate;
+    for (double t = 0.0; t < 10.0; t += 4e-3) {
+      const double load = 0.8 * std::sin(rate * t);
+      const double torque = -rate * rate * load * kLoad;
+      const double torsion = torque / 2e4;
+      const double motor = kRatio * (load + torsion);
+      const double speed = kRatio * rate * 0.8 * std::cos(rate * t) * (1.0 - rate * rate * 1e-4);
+      r.time.push_back(t);
+      r.channels[Quantity::load_angle].push_back(load);
+      r.channels[Quantity::motor_angle].push_back(motor);
+      r.channels[Quantity::transmitted_torque].push_back(of_transmitted *
+                                                         (torque + 0.02 * std::sin(311.0 * t)));
+      r.channels[Quantity::motor_torque].push_back(
+          of_motor * (-rate * rate * motor * kMotor + torque / kRatio + 0.02 * std::tanh(speed) +
+                      1e-3 * std::sin(277.0 * t)));
+    }
+  }
+  return set;
+}
+
+// An error of 15 % of a motor's torque is 75 % of what is transmitted there: it is no mistake.
+TEST(Sanity, AnErrorOfTheMotorsTorqueIsNotOneOfTheTransmitted) {
+  EXPECT_FALSE(raises(mostly_motor(1.0, 1.0), "motor_torque"));
+  EXPECT_FALSE(raises(mostly_motor(0.85, 1.0), "motor_torque"));
+  EXPECT_TRUE(raises(mostly_motor(1000.0, 1.0), "motor_torque"));
+  EXPECT_TRUE(raises(mostly_motor(1.0, 0.1), "motor_torque"));
+  EXPECT_TRUE(raises(mostly_motor(1.0, -1.0), "motor_torque"));
 }
 
 /// Whether the catalogue has it, as `list checks` prints it.

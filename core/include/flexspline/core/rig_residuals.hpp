@@ -22,7 +22,9 @@ struct DriveChannels {
   /// rad/s: of what turns with w the smoothed motor angle and its derivatives keep the share
   /// 1/(1 + (w/motor_bandwidth)^6).
   double motor_bandwidth = std::numeric_limits<double>::infinity();
-  std::vector<double> motor_speed_error, torsion_rate_error;  ///< standard deviation by sample
+  /// Standard deviations by sample.
+  std::vector<double> motor_speed_error, torsion_rate_error;
+  std::vector<double> motor_acceleration_error, load_acceleration_error;
   std::vector<double> load_torque;  ///< beyond the pendulum's; empty for none
 };
 

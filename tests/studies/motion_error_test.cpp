@@ -1,9 +1,9 @@
-// What an error of the torsion's rate does to a model that turns on it.
+// What errors of the motions do to a model that turns on them.
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/rate_error.hpp"
+#include "diagnosis/motion_error.hpp"
 #include "diagnosis/search.hpp"
 #include "drive_frame.hpp"
 
@@ -36,13 +36,14 @@ Frame hysteretic(double error) {
   return f;
 }
 
-TEST(RateError, IsWhatTheModelChangesByWithinIt) {
+TEST(MotionError, IsWhatTheModelChangesByWithinIt) {
   Frame f = hysteretic(0.0);
   const Findings findings = *fit_baseline(f);
   const double s = 0.5 * width(f);
-  EXPECT_EQ(torque_of_rate_error(f, findings.fit.model, findings.reference)[kTorsion].size(), 0);
+  EXPECT_EQ(torque_of_motion_error(f, findings.fit.model, findings.reference)[kTorsion].size(), 0);
   f.torsion_rate_error = ArrayXd::Constant(f.rows(), s);
-  const ArrayXd torque = torque_of_rate_error(f, findings.fit.model, findings.reference)[kTorsion];
+  const ArrayXd torque =
+      torque_of_motion_error(f, findings.fit.model, findings.reference)[kTorsion];
   const ArrayXd law = 0.5 * (loss(f, f.torsion_rate + s) - loss(f, f.torsion_rate - s));
   // The law is a mixture of a few widths, fitted to noise: a twentieth of what it turns by.
   EXPECT_LT((torque - law).abs().maxCoeff(), 0.05 * kLoss);
@@ -50,7 +51,7 @@ TEST(RateError, IsWhatTheModelChangesByWithinIt) {
 }
 
 // To a tenth: over an error of half the width the law is no straight line.
-TEST(RateError, IsNoNoise) {
+TEST(MotionError, IsNoNoise) {
   const double error = 0.5;
   Frame f = hysteretic(error);
   const Findings blind = *fit_baseline(f);
@@ -66,10 +67,48 @@ TEST(RateError, IsNoNoise) {
   EXPECT_NEAR((over.square() * turns).sum() / turns.sum(), 1.0, 0.3);
 }
 
-TEST(RateError, OfAServoIsNotAskedFor) {
+/// What a model of a drive in closed form loses by errors of its motions, of one equation.
+ArrayXd lost_of(const Frame& f, Equation equation) {
+  const Findings findings = *fit_baseline(f);
+  return torque_of_motion_error(f, findings.fit.model, findings.reference)[index_of(equation)];
+}
+
+/// A free drive whose torques have some noise, its rate known exactly.
+Frame noisy_drive() {
+  Frame f = closed_form_frame();
+  f.torque += kNoise * normal(f.rows(), 8);
+  f.motor_torque += kNoise / f.ratio * normal(f.rows(), 9);
+  f.torsion_rate_error = ArrayXd::Zero(f.rows());
+  return f;
+}
+
+// J1 s of the motor's acceleration, J2 s of the load's, each of its own equation alone.
+TEST(MotionError, OfAnAccelerationIsThatOfItsInertia) {
+  Frame f = noisy_drive();
+  f.motor_acceleration_error = ArrayXd::LinSpaced(f.rows(), 1.0, 7.0);
+  f.load_acceleration_error = ArrayXd::Constant(f.rows(), 0.3);
+  const ArrayXd motor = lost_of(f, Equation::motor);
+  EXPECT_LT((motor - f.motor_inertia * f.motor_acceleration_error).abs().maxCoeff(), 1e-9);
+  EXPECT_LT((lost_of(f, Equation::load) - f.load_inertia * 0.3).abs().maxCoeff(), 1e-9);
+  EXPECT_LT(lost_of(f, Equation::torsion).maxCoeff(), 1e-9);
+}
+
+// Independent errors add up by their squares.
+TEST(MotionError, OfSpeedAndAccelerationAddUp) {
+  Frame f = noisy_drive();
+  f.motor_speed_error = ArrayXd::Constant(f.rows(), 0.01 * f.speed_range);
+  const ArrayXd of_speed = lost_of(f, Equation::motor);
+  EXPECT_GT(of_speed.maxCoeff(), 0.0);
+  f.motor_acceleration_error = ArrayXd::Constant(f.rows(), 5.0);
+  const ArrayXd of_both = lost_of(f, Equation::motor);
+  const ArrayXd sum = (of_speed.square() + std::pow(f.motor_inertia * 5.0, 2.0)).sqrt();
+  EXPECT_LT((of_both - sum).abs().maxCoeff(), 0.02 * sum.maxCoeff()) << "fitted to other weights";
+}
+
+TEST(MotionError, OfAServoIsNotAskedFor) {
   Frame f = drawn_frame(Rig::servo);
   const Findings findings = *fit_baseline(f);
-  for (const ArrayXd& one : torque_of_rate_error(f, findings.fit.model, findings.reference)) {
+  for (const ArrayXd& one : torque_of_motion_error(f, findings.fit.model, findings.reference)) {
     EXPECT_EQ(one.size(), 0);
   }
 }

@@ -1,0 +1,75 @@
+// Which speeds an encoder tells.
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "diagnosis/counted.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr double kInterval = 1e-3;
+constexpr double kLevel = 0.01;
+constexpr double kBandwidth = 60.0;
+constexpr double kSlowest = kLevel * kBandwidth / std::numbers::pi;  // two levels in a period
+
+struct Told {
+  std::vector<double> time, tells;
+};
+
+Told told(const std::function<double(double)>& angle, double level) {
+  std::vector<double> time, read;
+  for (int i = 0; i < 3000; ++i) {
+    time.push_back(kInterval * i);
+    const double x = angle(time.back());
+    read.push_back(level > 0.0 ? level * std::round(x / level) : x);
+  }
+  auto tells = counted(time, read, kBandwidth);
+  return {std::move(time), std::move(tells)};
+}
+
+double share(const Told& t) {
+  double sum = 0.0;
+  for (const double one : t.tells) sum += one;
+  return sum / static_cast<double>(t.tells.size());
+}
+
+TEST(Counted, ASteadySpeedIsToldFromTwoLevelsAPeriodOn) {
+  const auto steady = [](double times) {
+    return share(told([=](double t) { return times * kSlowest * t; }, kLevel));
+  };
+  EXPECT_EQ(steady(0.4), 0.0) << "never two levels";
+  EXPECT_LT(steady(0.8), 0.9);
+  EXPECT_GT(steady(1.5), 0.97) << "all but half a period at either end";
+}
+
+// A motor that creeps past a level now and then looks, smoothed, as if it moved and rested.
+TEST(Counted, CreepingIsNotTold) {
+  const auto creep = [](double t) { return 0.05 * kSlowest * t + 0.2 * kLevel; };
+  EXPECT_EQ(share(told(creep, kLevel)), 0.0);
+}
+
+// About a reversal to where a motion v^2/(2 a) away has passed two levels.
+TEST(Counted, AReversalIsNotTold) {
+  const auto turn = [](double t) { return 0.5 * 0.5 * std::pow(t - 1.5, 2.0); };
+  const Told t = told(turn, kLevel);
+  const double half = std::numbers::pi / kBandwidth;
+  const double near = kLevel / (0.5 * half);  // 2 half a d = 2 levels
+  for (std::size_t i = 0; i < t.time.size(); ++i) {
+    const double from = std::abs(t.time[i] - 1.5);
+    if (from < 0.4 * near) EXPECT_EQ(t.tells[i], 0.0) << t.time[i];
+    if (from > 1.6 * near && from < 1.4) EXPECT_EQ(t.tells[i], 1.0) << t.time[i];
+  }
+}
+
+TEST(Counted, AnAngleWithoutLevelsIsToldEverywhere) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  EXPECT_GT(share(told([&](double t) { return std::sin(3.0 * t) + noise(engine); }, 0.0)), 0.999);
+}
+
+}  // namespace
+}  // namespace flexspline::studies
