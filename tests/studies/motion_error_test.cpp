@@ -73,11 +73,12 @@ ArrayXd lost_of(const Frame& f, Equation equation) {
   return torque_of_motion_error(f, findings.fit.model, findings.reference)[index_of(equation)];
 }
 
-/// A free drive whose torques have some noise, its rate known exactly.
+/// A free drive with viscous friction and some noise, its rate known exactly.
 Frame noisy_drive() {
   Frame f = closed_form_frame();
   f.torque += kNoise * normal(f.rows(), 8);
-  f.motor_torque += kNoise / f.ratio * normal(f.rows(), 9);
+  f.motor_torque = f.motor_inertia * f.motor_acceleration + f.torque / f.ratio +
+                   0.1 * f.motor_speed / f.speed_range + kNoise / f.ratio * normal(f.rows(), 9);
   f.torsion_rate_error = ArrayXd::Zero(f.rows());
   return f;
 }

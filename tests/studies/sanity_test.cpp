@@ -109,7 +109,8 @@ RecordingSet mostly_motor(double of_motor, double of_transmitted) {
   constexpr double kRatio = 100.0, kMotor = 1e-3, kLoad = 2.0;
   RecordingSet set;
   set.rig = Rig::free;
-  set.constants = {{"gear_ratio", kRatio}, {"motor_inertia_kgm2", kMotor}};
+  set.constants = {
+      {"gear_ratio", kRatio}, {"motor_inertia_kgm2", kMotor}, {"load_inertia_kgm2", kLoad}};
   for (const double rate : {2.0, 3.0}) {
     Recording& r = set.recordings.emplace_back();
     r.id = "sine-" + std::to_string(rate);
@@ -138,8 +139,10 @@ TEST(Sanity, AnErrorOfTheMotorsTorqueIsNotOneOfTheTransmitted) {
   EXPECT_FALSE(raises(mostly_motor(1.0, 1.0), "motor_torque"));
   EXPECT_FALSE(raises(mostly_motor(0.85, 1.0), "motor_torque"));
   EXPECT_TRUE(raises(mostly_motor(1000.0, 1.0), "motor_torque"));
-  EXPECT_TRUE(raises(mostly_motor(1.0, 0.1), "motor_torque"));
-  EXPECT_TRUE(raises(mostly_motor(1.0, -1.0), "motor_torque"));
+  EXPECT_TRUE(raises(mostly_motor(-1.0, 1.0), "motor_torque"));
+  // Of the transmitted torque the load tells.
+  EXPECT_FALSE(raises(mostly_motor(1.0, 1.0), "load_inertia"));
+  EXPECT_TRUE(raises(mostly_motor(1.0, 0.1), "load_inertia"));
 }
 
 /// Whether the catalogue has it, as `list checks` prints it.

@@ -21,15 +21,17 @@ constexpr SanityVerdict kOtherUnits{"check_units", Severity::error, kScale};
 constexpr double kMostOff = 1.8;
 constexpr double kLoaded =
     0.3;  // of the largest range of torque: below it noise flattens the slope
-constexpr double kClear = 20.0;  // standard errors, of white noise
+constexpr double kClear = 20.0;   // standard errors, of white noise
+constexpr double kClearly = 0.9;  // of a sum of squares
 
 double left_by(const Regression& fit, const ArrayXd& y, const ArrayXd& usable) {
   const double mean = (y * usable).sum() / std::max(usable.sum(), 1.0);
   return (1.0 - fit.explained) * ((y - mean) * usable).square().sum();
 }
 
-/// The motor torque over J theta'' + tau/N where that leaves less than an error of tau alone does:
-/// where a motor turns mostly its own inertia, a small error of its torque is a large one of tau's.
+/// The motor torque over J theta'' + tau/N, but where an error of tau alone leaves clearly less: a
+/// motor that turns mostly its own inertia makes a small error of its torque a large one of tau's,
+/// and where load and motor move as one nothing tells the two apart.
 Regression slope_of(const Observed& o, double ratio, double inertia) {
   const ArrayXd transmitted = o.effort / ratio;
   const ArrayXd turning = inertia * o.motor_acceleration;
@@ -41,8 +43,9 @@ Regression slope_of(const Observed& o, double ratio, double inertia) {
   const ArrayXd rest = o.drive - turning;
   const Regression of_transmitted = beside_friction(transmitted, rest);
   const Regression of_all = beside_friction(turning + transmitted, o.drive);
-  const bool all = left_by(of_all, o.drive, o.usable) < left_by(of_transmitted, rest, o.usable);
-  return all ? of_all : of_transmitted;
+  const bool clearly =
+      left_by(of_transmitted, rest, o.usable) < kClearly * left_by(of_all, o.drive, o.usable);
+  return clearly ? of_transmitted : of_all;
 }
 
 /// Slope of the motor torque over tau/N beside inertia and frictions: 1, but for the losses. The
