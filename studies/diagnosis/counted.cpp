@@ -36,4 +36,11 @@ std::vector<double> counted(std::span<const double> time, std::span<const double
   return tells;
 }
 
+std::vector<double> counted_motor(const Recording& recording, double bandwidth) {
+  const std::vector<double>* angle = recording.find(Quantity::motor_angle);
+  if (angle == nullptr) angle = recording.find(Quantity::load_angle);
+  if (angle == nullptr) return std::vector<double>(recording.time.size(), 1.0);
+  return counted(recording.time, *angle, bandwidth);
+}
+
 }  // namespace flexspline::studies

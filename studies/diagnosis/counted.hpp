@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "flexspline/core/recording.hpp"
+
 namespace flexspline::studies {
 
 /// Where the levels of an encoder tell how fast its angle moves, 1 by sample, else 0. A smoothing
@@ -12,5 +14,9 @@ namespace flexspline::studies {
 /// where an angle has no levels.
 std::vector<double> counted(std::span<const double> time, std::span<const double> angle,
                             double bandwidth);
+
+/// The same of a recording's motor, by the encoder that tells its angle: its own, or the load's of
+/// a servo. 1 everywhere where there is none.
+std::vector<double> counted_motor(const Recording& recording, double bandwidth);
 
 }  // namespace flexspline::studies

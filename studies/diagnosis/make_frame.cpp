@@ -135,7 +135,7 @@ class FrameMaker {
       frame_.velocity.segment(at_, count) = kNotComputed;
     }
     mark_usable(*c.recording, count, stride);
-    put(frame_.motor_slides, counted_motor(c));
+    put(frame_.motor_slides, counted_motor(*c.recording, d.motor_bandwidth));
     frame_.segments.push_back({c.recording->id, at_, count, c.recording->split});
     at_ += count;
   }
@@ -184,14 +184,6 @@ class FrameMaker {
             &f.velocity,
             &f.usable,
             &f.motor_slides};
-  }
-
-  // By the encoder that tells the motor's angle: its own, or the load's of a servo.
-  static Series counted_motor(const Channels& c) {
-    const Series* angle = c.recording->find(Quantity::motor_angle);
-    if (angle == nullptr) angle = c.recording->find(Quantity::load_angle);
-    if (angle == nullptr) return Series(c.recording->time.size(), 1.0);
-    return counted(c.recording->time, *angle, c.drive.motor_bandwidth);
   }
 
   void mark_usable(const Recording& recording, Index count, Index stride) {

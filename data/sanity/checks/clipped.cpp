@@ -99,32 +99,37 @@ double level_beside(const Series& values, double extreme, bool top) {
   return least;
 }
 
+/// How far from the extreme the samples are from one of them on, one way, until another is at it.
+std::vector<double> gone_from(const Series& values, double extreme, std::ptrdiff_t from,
+                              std::ptrdiff_t way, std::size_t most) {
+  std::vector<double> gone;
+  const auto size = static_cast<std::ptrdiff_t>(values.size());
+  for (std::ptrdiff_t i = from; i >= 0 && i < size && gone.size() < most; i += way) {
+    const double value = values[static_cast<std::size_t>(i)];
+    if (value == extreme) break;
+    gone.push_back(std::abs(extreme - value));
+  }
+  return gone;
+}
+
 /// Whether most of the rows at an extreme are come to, and left, by a motion that goes on beyond.
 bool goes_on_beyond(const Series& values, double extreme, bool top) {
   const double level = level_beside(values, extreme, top);
   std::size_t flanks = 0;
   std::size_t hiding = 0;
-  const auto take = [&](std::size_t row, const auto& at) {
-    std::vector<double> gone;
-    for (std::size_t k = 1; k <= std::max(kFlank, row); ++k) {
-      const double* const value = at(k);
-      if (value == nullptr || *value == extreme) break;
-      gone.push_back(std::abs(extreme - *value));
-    }
-    if (gone.size() < kFlank) return;
-    ++flanks;
-    hiding += hides_a_turn(flank_of(gone), static_cast<double>(row), level) ? 1 : 0;
-  };
-  for (std::size_t first = 0; first < values.size();) {
-    std::size_t last = first;
+  for (std::size_t first = 0, last = 0; first < values.size(); first = last + 1) {
+    last = first;
     while (last < values.size() && values[last] == extreme) ++last;
-    if (const std::size_t row = last - first; row >= kLeastRow) {
-      take(row, [&](std::size_t k) { return k > first ? nullptr : &values[first - k]; });
-      take(row, [&](std::size_t k) {
-        return last + k > values.size() ? nullptr : &values[last + k - 1];
-      });
+    const std::size_t row = last - first;
+    if (row < kLeastRow) continue;
+    const std::size_t most = std::max(kFlank, row);
+    for (const auto& gone :
+         {gone_from(values, extreme, static_cast<std::ptrdiff_t>(first) - 1, -1, most),
+          gone_from(values, extreme, static_cast<std::ptrdiff_t>(last), 1, most)}) {
+      if (gone.size() < kFlank) continue;
+      ++flanks;
+      hiding += hides_a_turn(flank_of(gone), static_cast<double>(row), level) ? 1 : 0;
     }
-    first = last + 1;
   }
   return 2 * hiding > flanks;
 }
