@@ -9,9 +9,9 @@ namespace flexspline::studies {
 
 /// Where the levels of an encoder tell how fast its angle moves, 1 by sample, else 0. A smoothing
 /// of this bandwidth (1/s) keeps w up to it; levels that are passed tell such a motion where two
-/// or more come in its period, 2 pi/bandwidth (sampling theorem). Slower, what is smoothed are the
-/// levels: an angle that creeps past one of them looks like one that moves and rests. 1 everywhere
-/// where an angle has no levels.
+/// or more come in its period, 2 pi/bandwidth or two samples (sampling theorem). Slower, what is
+/// smoothed are the levels: an angle that creeps past one of them looks like one that moves and
+/// rests. 1 everywhere where an angle has no levels.
 std::vector<double> counted(std::span<const double> time, std::span<const double> angle,
                             double bandwidth);
 

@@ -1,6 +1,8 @@
 // Which speeds an encoder tells.
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -63,6 +65,14 @@ TEST(Counted, AReversalIsNotTold) {
     if (from < 0.4 * near) EXPECT_EQ(t.tells[i], 0.0) << t.time[i];
     if (from > 1.6 * near && from < 1.4) EXPECT_EQ(t.tells[i], 1.0) << t.time[i];
   }
+}
+
+// A smoothing that takes nothing away keeps what is as fast as every other sample, and no faster.
+TEST(Counted, NoSmoothingIsTwoSamples) {
+  std::vector<double> time, angle;
+  for (int i = 0; i < 500; ++i) time.push_back(kInterval * i), angle.push_back(kLevel * i);
+  const auto tells = counted(time, angle, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(std::ranges::count(tells, 1.0), 498) << "all but the ends";
 }
 
 TEST(Counted, AnAngleWithoutLevelsIsToldEverywhere) {
