@@ -14,6 +14,7 @@ struct Smoothed {
   Series& rate;
   Series& second;
   double* bandwidth = nullptr;
+  Series* value_error = nullptr;
   Series* rate_error = nullptr;
   Series* second_error = nullptr;
 
@@ -24,6 +25,7 @@ struct Smoothed {
     value = std::move(smooth->value);
     rate = std::move(smooth->rate);
     second = std::move(smooth->second);
+    if (value_error != nullptr) *value_error = std::move(smooth->value_error);
     if (rate_error != nullptr) *rate_error = std::move(smooth->rate_error);
     if (second_error != nullptr) *second_error = std::move(smooth->second_error);
     if (bandwidth != nullptr) *bandwidth = smooth->bandwidth;
@@ -77,12 +79,13 @@ Result<void> smooth_motions(Rig rig, double ratio, const Recording& recording,
   const std::pair<const Series*, Smoothed> motions[] = {
       {recording.find(Quantity::motor_angle),
        {c.motor_angle, c.motor_speed, c.motor_acceleration, &c.motor_bandwidth,
-        &c.motor_speed_error, &c.motor_acceleration_error}},
+        &c.motor_angle_error, &c.motor_speed_error, &c.motor_acceleration_error}},
       {recording.find(Quantity::load_angle),
-       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth, nullptr,
+       {c.load_angle, c.load_speed, c.load_acceleration, &load_bandwidth, nullptr, nullptr,
         &c.load_acceleration_error}},
       {torsion,
-       {c.torsion, c.torsion_rate, c.torsion_acceleration, nullptr, &c.torsion_rate_error}}};
+       {c.torsion, c.torsion_rate, c.torsion_acceleration, nullptr, &c.torsion_error,
+        &c.torsion_rate_error}}};
   for (const auto& [samples, smoothed] : motions) {
     if (samples == nullptr) continue;
     if (auto filled = smoothed.fill(recording, *samples, resolution); !filled) return filled;

@@ -19,12 +19,11 @@ struct SmoothSignal {
   std::vector<double> error{};  ///< of value: noise sqrt(degrees of freedom / samples)
   /// rad/s: of a sine of w the share 1/(1 + (w/bandwidth)^6) is kept; of a spline.
   double bandwidth = std::numeric_limits<double>::infinity();
-  /// Standard deviation of rate by sample, that of its noise and most of what smoothing took:
-  /// its change where the penalty is a ninth, rms within 1/bandwidth; of a spline. What is faster
-  /// than the samples is not in it.
-  std::vector<double> rate_error{};
-  /// The same of second; of white noise 1.76 times its own.
-  std::vector<double> second_error{};
+  /// Standard deviations by sample: of noise, of most of what smoothing took, of what turns too
+  /// fast for the samples. The larger of a change where the penalty is a ninth and half the
+  /// difference between odd and even samples, rms within 1/bandwidth; of a spline. Of white noise
+  /// that of second is 1.76 times its own.
+  std::vector<double> value_error{}, rate_error{}, second_error{};
 };
 
 /// Whether signals can be smoothed: 16 samples or more over a time that increases, and squares that

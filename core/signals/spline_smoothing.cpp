@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <random>
 
@@ -167,22 +168,65 @@ std::vector<double> running_rms(std::span<const double> time, const std::vector<
   return rms;
 }
 
-// By what changes with a ninth of the penalty. White noise passes H = 1/(1 + (w/bandwidth)^6); the
-// integrals of w^2 (H_9 - H)^2 and of w^2 H^2 over w are equal, so that noise changes a rate by as
-// much as it makes it wrong, and of what smoothing took eight ninths come back. (Of the second
-// derivative, with w^4, 1.76 times as much: what smoothing takes of it is more than noise.)
-void tell_errors(Equations& equations, const Penalised& fit, std::size_t column,
-                 const CubicBasis& basis, std::span<const double> time,
-                 std::span<const double> samples, SmoothSignal& smooth) {
-  std::vector<Penalised> rougher(static_cast<std::size_t>(equations.samples.cols()));
-  try_penalty(equations, fit.penalty / 9.0, 0.0, rougher);
-  const SmoothSignal rough = signal_of(rougher[column], basis, time, samples);
-  const auto error_of = [&](std::vector<double> change, const std::vector<double>& from) {
-    std::ranges::transform(change, from, change.begin(), std::minus<>());
-    return running_rms(time, change, 1.0 / smooth.bandwidth);
-  };
-  smooth.rate_error = error_of(rough.rate, smooth.rate);
-  smooth.second_error = error_of(rough.second, smooth.second);
+// Of every second sample, from the one given on.
+std::vector<double> half_of(std::span<const double> samples, std::size_t first) {
+  std::vector<double> half;
+  for (std::size_t i = first; i < samples.size(); i += 2) half.push_back(samples[i]);
+  return half;
+}
+
+// The signals by every second sample, behind the same filters, at the instants of all samples.
+std::vector<SmoothSignal> smooth_half(std::span<const double> time,
+                                      std::span<const std::span<const double>> signals,
+                                      const std::vector<Penalised>& fits, std::size_t intervals,
+                                      std::size_t first) {
+  const CubicBasis basis(time.front(), time.back(), std::max<std::size_t>(intervals / 2, 4));
+  std::vector<std::vector<double>> samples;
+  for (const auto& signal : signals) samples.push_back(half_of(signal, first));
+  const std::vector<std::span<const double>> views(samples.begin(), samples.end());
+  Equations equations(half_of(time, first), basis, views);
+  std::vector<SmoothSignal> smooth;
+  for (std::size_t s = 0; s < fits.size(); ++s) {
+    // Of twice the interval a 64th: the bandwidth stays.
+    equations.solver.factorize(equations.normal + fits[s].penalty / 64.0 * equations.roughness);
+    Penalised fit{equations.solver.solve(equations.right.col(static_cast<Eigen::Index>(s)))};
+    smooth.push_back(signal_of(fit, basis, time, signals[s]));
+  }
+  return smooth;
+}
+
+// The larger of two, by sample, for value, rate and second derivative alike:
+// 1. What changes with a ninth of the penalty: of what smoothing took of a motion eight ninths come
+//    back. White noise passes H = 1/(1 + (w/bandwidth)^6); the integrals of w^2 (H_9 - H)^2 and of
+//    w^2 H^2 over w are equal, so that noise changes a rate by as much as it makes it wrong (a
+//    value by 0.42 times that, a second derivative by 1.76 times).
+// 2. Half of the difference between the odd and the even samples' curves, the noise's own
+//    deviation: what turns too fast for the samples differs between them.
+void tell_errors(Equations& equations, const std::vector<Penalised>& fits, const CubicBasis& basis,
+                 std::span<const double> time, std::span<const std::span<const double>> signals,
+                 std::size_t intervals, std::vector<SmoothSignal>& smooth) {
+  const auto even = smooth_half(time, signals, fits, intervals, 0);
+  const auto odd = smooth_half(time, signals, fits, intervals, 1);
+  for (std::size_t s = 0; s < fits.size(); ++s) {
+    std::vector<Penalised> rougher(fits.size());
+    try_penalty(equations, fits[s].penalty / 9.0, 0.0, rougher);
+    const SmoothSignal rough = signal_of(rougher[s], basis, time, signals[s]);
+    const auto running = [&](const std::vector<double>& a, const std::vector<double>& b) {
+      std::vector<double> change;
+      std::ranges::transform(a, b, std::back_inserter(change), std::minus<>());
+      return running_rms(time, change, 1.0 / smooth[s].bandwidth);
+    };
+    const auto error_of = [&](std::vector<double> SmoothSignal::*motion) {
+      std::vector<double> error = running(rough.*motion, smooth[s].*motion);
+      std::ranges::transform(
+          running(even[s].*motion, odd[s].*motion), error, error.begin(),
+          [](double halves, double ninth) { return std::max(0.5 * halves, ninth); });
+      return error;
+    };
+    smooth[s].value_error = error_of(&SmoothSignal::value);
+    smooth[s].rate_error = error_of(&SmoothSignal::rate);
+    smooth[s].second_error = error_of(&SmoothSignal::second);
+  }
 }
 
 bool has_finite_squares(std::span<const double> samples) {
@@ -236,8 +280,8 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
     smooth.back().bandwidth = bandwidth_of(
         best[s].penalty, static_cast<double>(time.size()) / static_cast<double>(intervals),
         (time.back() - time.front()) / static_cast<double>(intervals));
-    tell_errors(equations, best[s], s, basis, time, signals[s], smooth.back());
   }
+  tell_errors(equations, best, basis, time, signals, intervals, smooth);
   return smooth;
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/experiment.hpp"
-#include "diagnosis/explanation.hpp"
+#include "diagnosis/next/experiment.hpp"
+#include "diagnosis/search/explanation.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/nested_proof.hpp"
-#include "diagnosis/resonance.hpp"
-#include "diagnosis/ripple_finding.hpp"
-#include "diagnosis/undecided.hpp"
-#include "diagnosis/unnamed.hpp"
+#include "diagnosis/names/nested_proof.hpp"
+#include "diagnosis/names/undecided.hpp"
+#include "diagnosis/unnamed/resonance.hpp"
+#include "diagnosis/unnamed/ripple_finding.hpp"
+#include "diagnosis/unnamed/unnamed.hpp"
 
 namespace flexspline::studies {
 

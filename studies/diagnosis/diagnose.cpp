@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include "diagnosis/diagnosed.hpp"
-#include "diagnosis/experiment.hpp"
-#include "diagnosis/specification.hpp"
-#include "diagnosis/spelled.hpp"
-#include "diagnosis/sticking.hpp"
-#include "diagnosis/velocity_lag.hpp"
+#include "diagnosis/frame/sticking.hpp"
+#include "diagnosis/frame/velocity_lag.hpp"
+#include "diagnosis/model/specification.hpp"
+#include "diagnosis/next/experiment.hpp"
+#include "diagnosis/proof/series.hpp"
+#include "diagnosis/words/spelled.hpp"
 #include "flexspline/studies/diagnosis.hpp"
 
 namespace flexspline::studies {
@@ -86,7 +87,7 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.holdout = decision.proof;
   d.cross_validated = decision.cross_validated;
   d.series = decision.taken_away;
-  append(d.series, spelled_series(frame, selection, proof));
+  append(d.series, proved_series(frame, selection, proof));
   d.causes = spelled_causes(frame, selection, proof);
   for (Cause& cause : d.causes) {
     if (decision.nested) cause.stability = stability_of(*decision.nested, cause);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/search.hpp"
+#include "diagnosis/search/search.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "diagnosis/selection.hpp"
+#include "diagnosis/search/selection.hpp"
 #include "trial/trial_json.hpp"
 
 namespace flexspline::studies {

@@ -46,8 +46,8 @@ Errors errors(const SmoothSignal& smooth, const std::function<double(double)>& r
 
 bool always(double) { return true; }
 
-// Noise alone is told as it is; within a quarter, as a part of the error is what smoothing takes of
-// the motion.
+// Noise alone is told as it is, or a little larger: the larger of two that few samples tell, and a
+// part of the error is what smoothing takes of the motion.
 TEST(SmoothingError, OfNoiseIsTold) {
   for (const double noise : {1e-4, 1e-2}) {
     std::mt19937_64 random(5);
@@ -55,7 +55,8 @@ TEST(SmoothingError, OfNoiseIsTold) {
     const auto smooth = smoothed([&](double t) { return std::sin(2.0 * t) + normal(random); });
     const auto [real, told] = errors(
         smooth, [](double t) { return 2.0 * std::cos(2.0 * t); }, always);
-    EXPECT_NEAR(told / real, 1.0, 0.25) << noise;
+    EXPECT_GT(told / real, 0.9) << noise;
+    EXPECT_LT(told / real, 1.4) << noise;
   }
 }
 
@@ -70,6 +71,37 @@ TEST(SmoothingError, OfAnAccelerationIsMoreThanItsNoise) {
     told += std::pow(smooth.second_error[i], 2.0);
   }
   EXPECT_NEAR(std::sqrt(told / real), 1.76, 0.45);
+}
+
+// Of the value a ninth of the penalty changes noise by 0.42 times itself; odd and even samples
+// tell all of it.
+TEST(SmoothingError, OfAValueIsItsNoise) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  const auto smooth = smoothed([&](double t) { return std::sin(2.0 * t) + normal(random); });
+  double real = 0.0, told = 0.0;
+  for (std::size_t i = 50; i + 50 < kSamples; ++i) {
+    real += std::pow(smooth.value[i] - std::sin(2.0 * instant(i)), 2.0);
+    told += std::pow(smooth.value_error[i], 2.0);
+  }
+  EXPECT_NEAR(std::sqrt(told / real), 1.0, 0.15);
+}
+
+// A kick between two samples, which the finest spline runs through: what it does to the second
+// derivative is told by odd and even samples, which no change of the penalty does.
+TEST(SmoothingError, TellsWhatTurnsFasterThanTheSamples) {
+  const double kick = 15.003;
+  const auto smooth =
+      smoothed([&](double t) { return 50.0 * std::pow(std::max(t - kick, 0.0), 2.0); });
+  double real = 0.0, told = 0.0;
+  for (std::size_t i = 1498; i < 1504; ++i) {
+    const double second = instant(i) > kick ? 100.0 : 0.0;
+    real = std::max(real, std::abs(smooth.second[i] - second));
+    told = std::max(told, smooth.second_error[i]);
+  }
+  EXPECT_GT(real, 10.0);
+  EXPECT_GT(told, 0.3 * real);
+  EXPECT_LT(smooth.second_error[1000], 1e-3 * told) << "at rest";
 }
 
 // |t - 15|: the rate jumps, where no spline does. Within one part of the bandwidth it is wrong by

@@ -58,6 +58,8 @@ TEST(HouseRules, RefuseWhatTheyAreFor) {
   EXPECT_FALSE(may_include("studies/run.cpp", "flexspline/reports/report.hpp"));
   EXPECT_FALSE(may_include("studies/run.cpp", "app/commands/run.hpp"));
   EXPECT_FALSE(may_include("core/model.cpp", "../tests/core/fixture.hpp"));
+  EXPECT_FALSE(may_include("studies/diagnosis/model/noise.cpp", "diagnosis/search/search.hpp"));
+  EXPECT_FALSE(may_include("studies/diagnosis/names/confirm.cpp", "diagnosis/decision.hpp"));
   EXPECT_FALSE(may_include("core/rigs/locked.cpp", "cvodes/cvodes.h"));
   EXPECT_FALSE(may_include("estimators/methods/trajectory_ceres.cpp", "ceres/ceres.h"));
   EXPECT_FALSE(may_include("studies/run.cpp", "IpTNLP.hpp"));
@@ -69,6 +71,8 @@ TEST(HouseRules, AllowWhatTheHouseIsBuiltOf) {
   EXPECT_TRUE(may_include("studies/app/main.cpp", "flexspline/reports/report.hpp"));
   EXPECT_TRUE(may_include("core/integrators/cvodes.cpp", "cvodes/cvodes.h"));
   EXPECT_TRUE(may_include("estimators/solvers/ceres.cpp", "ceres/ceres.h"));
+  EXPECT_TRUE(may_include("studies/diagnosis/search/search.cpp", "diagnosis/model/noise.hpp"));
+  EXPECT_TRUE(may_include("studies/diagnosis/decision.cpp", "diagnosis/names/finding.hpp"));
 }
 
 TEST(HouseRules, ReadIncludeLines) {

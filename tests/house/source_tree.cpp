@@ -1,5 +1,6 @@
 #include "source_tree.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -76,6 +77,20 @@ bool layer_may_include(const std::string& layer, const std::string& header) {
   return kMayInclude.at(layer).contains(other);
 }
 
+// The rooms of the diagnosis, each of which knows those before it.
+bool room_may_include(const std::string& file, const std::string& header) {
+  static const std::vector<std::string> kRooms = {"frame", "model",   "causes", "parts", "search",
+                                                  "proof", "unnamed", "next",   "names", "words"};
+  static const std::string kPrefix = "diagnosis/";
+  const auto room_of = [](const std::string& path) {
+    const std::string name = path.substr(0, path.find('/'));
+    return std::ranges::find(kRooms, name) - kRooms.begin();
+  };
+  static const std::string kFolder = "studies/" + kPrefix;
+  if (!file.starts_with(kFolder) || !header.starts_with(kPrefix)) return true;
+  return room_of(header.substr(kPrefix.size())) <= room_of(file.substr(kFolder.size()));
+}
+
 bool library_may_be_named(const std::string& file, const std::string& header) {
   static const std::regex kSundials(
       "(sundials|cvodes?|idas?|arkode|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*");
@@ -103,7 +118,8 @@ bool may_include(const std::string& file, const std::string& header) {
   if (layer != "tests" && header.starts_with("tests/")) return false;
   if (layer != "app" && starts_with_any(header, {"app/", "commands/", "studies/app/"}))
     return false;
-  return layer_may_include(layer, header) && library_may_be_named(file, header);
+  return layer_may_include(layer, header) && room_may_include(file, header) &&
+         library_may_be_named(file, header);
 }
 
 bool names_a_private_path(const std::string& text) {

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnosis/selection.hpp"
+#include "diagnosis/search/selection.hpp"
 
 namespace flexspline::studies {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "diagnosis/search.hpp"
+#include "diagnosis/search/search.hpp"
 
 namespace flexspline::studies {
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "autoregression.hpp"
-#include "diagnosis/cause.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/model/cause.hpp"
+#include "diagnosis/search/search.hpp"
 #include "diagnosis_checks.hpp"
 
 namespace flexspline::studies {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/baseline.hpp"
-#include "diagnosis/cause.hpp"
-#include "diagnosis/low_pass.hpp"
-#include "diagnosis/model_columns.hpp"
+#include "diagnosis/frame/baseline.hpp"
+#include "diagnosis/frame/low_pass.hpp"
+#include "diagnosis/model/cause.hpp"
+#include "diagnosis/model/model_columns.hpp"
 #include "drive_frame.hpp"
 #include "flexspline/core/integrated_basis.hpp"
 

@@ -1,5 +1,5 @@
 // The probability of a name: the logistic formula, its limits, and what does not exist.
-#include "diagnosis/calibrated.hpp"
+#include "diagnosis/proof/calibrated.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // Two corrections of a free rig's motor equation that take each other back: all of its torque turns
 // inertias, so that an error of one of them is nearly a share of the motor's torque.
-#include "diagnosis/cancelling.hpp"
+#include "diagnosis/model/cancelling.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -8,7 +8,7 @@
 
 #include <gmock/gmock.h>
 
-#include "diagnosis/confirm.hpp"
+#include "diagnosis/names/confirm.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

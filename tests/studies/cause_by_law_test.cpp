@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/cause_by_law.hpp"
+#include "diagnosis/frame/coordinates.hpp"
+#include "diagnosis/model/cause_by_law.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

@@ -1,4 +1,4 @@
-#include "diagnosis/cause_spread.hpp"
+#include "diagnosis/proof/cause_spread.hpp"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "accepted_ids.hpp"
-#include "diagnosis/confirm.hpp"
+#include "diagnosis/names/confirm.hpp"
 #include "searched_drive.hpp"
 
 namespace flexspline::studies {

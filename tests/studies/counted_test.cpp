@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/counted.hpp"
+#include "diagnosis/frame/counted.hpp"
 
 namespace flexspline::studies {
 namespace {

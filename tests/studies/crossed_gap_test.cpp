@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
-#include "diagnosis/cause.hpp"
+#include "diagnosis/model/cause.hpp"
 
 namespace flexspline::studies {
 namespace {

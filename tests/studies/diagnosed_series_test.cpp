@@ -1,7 +1,7 @@
 // Over what a diagnosis shows recordings: what moves in the equation that it proves.
 #include <gtest/gtest.h>
 
-#include "diagnosis/spelled.hpp"
+#include "diagnosis/proof/series.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

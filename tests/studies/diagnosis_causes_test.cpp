@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/cause.hpp"
-#include "diagnosis/model.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/model/cause.hpp"
+#include "diagnosis/model/model.hpp"
+#include "diagnosis/search/search.hpp"
 #include "diagnosis_checks.hpp"
 #include "drive_frame.hpp"
 #include "flexspline/core/effect.hpp"

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "autoregression.hpp"
-#include "diagnosis/locate.hpp"
-#include "diagnosis/noise.hpp"
-#include "diagnosis/periodic_angle.hpp"
-#include "diagnosis/running_parabola.hpp"
-#include "diagnosis/selection.hpp"
+#include "diagnosis/frame/periodic_angle.hpp"
+#include "diagnosis/frame/running.hpp"
+#include "diagnosis/model/noise.hpp"
+#include "diagnosis/search/locate.hpp"
+#include "diagnosis/search/selection.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

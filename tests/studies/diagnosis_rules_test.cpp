@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/explanation.hpp"
-#include "diagnosis/folds.hpp"
-#include "diagnosis/prove.hpp"
+#include "diagnosis/frame/folds.hpp"
+#include "diagnosis/proof/prove.hpp"
+#include "diagnosis/search/explanation.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

@@ -1,14 +1,22 @@
 #pragma once
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/frame.hpp"
+#include "diagnosis/frame/frame.hpp"
 #include "flexspline/studies/conceal.hpp"
 
 namespace flexspline::studies {
+
+/// Normal noise of unit variance.
+inline Eigen::ArrayXd normal(Eigen::Index rows, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> one;
+  return Eigen::ArrayXd::NullaryExpr(rows, [&] { return one(random); });
+}
 
 /// The measured recordings of a bench drawn from a seed, and what it hides.
 inline ConcealedCase drawn_case(Rig rig, std::uint64_t seed,

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "active_cause.hpp"
-#include "diagnosis/exchange.hpp"
+#include "diagnosis/search/exchange.hpp"
 #include "stribeck_frame.hpp"
 
 namespace flexspline::studies {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
-#include "diagnosis/cause.hpp"
-#include "diagnosis/model.hpp"
+#include "diagnosis/model/cause.hpp"
+#include "diagnosis/model/model.hpp"
 #include "flexspline/core/rig_residuals.hpp"
 
 namespace flexspline::studies {

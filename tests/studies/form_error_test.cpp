@@ -2,7 +2,7 @@
 // explains.
 #include <gtest/gtest.h>
 
-#include "diagnosis/form_error.hpp"
+#include "diagnosis/search/form_error.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "autoregression.hpp"
-#include "diagnosis/incident.hpp"
-#include "diagnosis/step_incident.hpp"
+#include "diagnosis/search/incident.hpp"
+#include "diagnosis/search/step_incident.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

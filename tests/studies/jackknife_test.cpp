@@ -1,4 +1,4 @@
-#include "diagnosis/jackknife.hpp"
+#include "diagnosis/frame/jackknife.hpp"
 
 #include <cmath>
 #include <random>

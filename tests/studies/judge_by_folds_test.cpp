@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "accepted_ids.hpp"
-#include "diagnosis/confirm.hpp"
-#include "diagnosis/held_out_error.hpp"
-#include "diagnosis/nested_proof.hpp"
+#include "diagnosis/names/confirm.hpp"
+#include "diagnosis/names/nested_proof.hpp"
+#include "diagnosis/proof/held_out_error.hpp"
 #include "searched_drive.hpp"
 
 namespace flexspline::studies {
@@ -27,6 +27,7 @@ class JudgeByFolds : public SearchedDrive {
     return {frame_.usable,
             s_.baseline.fit.residual,
             finds ? s_.final.fit.residual : s_.baseline.fit.residual,
+            {},
             {}};
   }
   const NameEvidence& evidence() const { return found_.proof.causes.front().name; }

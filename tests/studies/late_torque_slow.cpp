@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/cause.hpp"
-#include "diagnosis/frame.hpp"
+#include "diagnosis/frame/frame.hpp"
+#include "diagnosis/model/cause.hpp"
 #include "diagnosis_checks.hpp"
 #include "flexspline/core/simulate.hpp"
 

@@ -1,4 +1,4 @@
-#include "diagnosis/linearised.hpp"
+#include "diagnosis/search/linearised.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,8 @@
 // What errors of the motions do to a model that turns on them.
-#include <random>
-
 #include <gtest/gtest.h>
 
-#include "diagnosis/motion_error.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/model/motion_error.hpp"
+#include "diagnosis/search/search.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {
@@ -15,12 +13,6 @@ using Eigen::ArrayXd;
 constexpr double kNoise = 0.1;  // Nm
 constexpr double kLoss = 2.0;   // Nm
 constexpr std::size_t kTorsion = 0;
-
-ArrayXd normal(Eigen::Index rows, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> one;
-  return ArrayXd::NullaryExpr(rows, [&] { return one(random); });
-}
 
 double width(const Frame& f) { return 0.1 * f.rate_range; }
 
@@ -94,6 +86,16 @@ TEST(MotionError, OfAnAccelerationIsThatOfItsInertia) {
   EXPECT_LT(lost_of(f, Equation::torsion).maxCoeff(), 1e-9);
 }
 
+// Of the torsion what its spring makes of it.
+TEST(MotionError, OfATorsionIsThatOfItsSpring) {
+  Frame f = hysteretic(0.0);
+  f.torsion_rate_error = ArrayXd::Zero(f.rows());
+  f.torsion_error = ArrayXd::LinSpaced(f.rows(), 0.0, 1e-3 * f.torsion_range);
+  const ArrayXd expected = 2e4 * f.torsion_error;
+  EXPECT_LT((lost_of(f, Equation::torsion) - expected).abs().maxCoeff(), 0.05 * expected.maxCoeff())
+      << "the slope of the spring is fitted to noise";
+}
+
 // Independent errors add up by their squares.
 TEST(MotionError, OfSpeedAndAccelerationAddUp) {
   Frame f = noisy_drive();
@@ -106,12 +108,16 @@ TEST(MotionError, OfSpeedAndAccelerationAddUp) {
   EXPECT_LT((of_both - sum).abs().maxCoeff(), 0.02 * sum.maxCoeff()) << "fitted to other weights";
 }
 
-TEST(MotionError, OfAServoIsNotAskedFor) {
-  Frame f = drawn_frame(Rig::servo);
+// Motor and pendulum turn as one: the last coefficient of the baseline is the inertia of both.
+TEST(MotionError, OfAServoIsThatOfBothInertias) {
+  const Frame f = drawn_frame(Rig::servo);
+  ASSERT_GT(f.load_acceleration_error.maxCoeff(), 0.0);
   const Findings findings = *fit_baseline(f);
-  for (const ArrayXd& one : torque_of_motion_error(f, findings.fit.model, findings.reference)) {
-    EXPECT_EQ(one.size(), 0);
-  }
+  const auto motor = index_of(Equation::motor);
+  const Eigen::VectorXd& own = findings.fit.model.own[motor];
+  const ArrayXd torque = torque_of_motion_error(f, findings.fit.model, findings.reference)[motor];
+  const ArrayXd expected = own[own.size() - 1] * f.load_acceleration_error;
+  EXPECT_LT((torque - expected).abs().maxCoeff(), 1e-9 * expected.maxCoeff());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "active_cause.hpp"
-#include "diagnosis/motor_sign.hpp"
+#include "diagnosis/model/motor_sign.hpp"
 #include "stribeck_frame.hpp"
 
 namespace flexspline::studies {

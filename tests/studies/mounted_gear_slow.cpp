@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/gap_in_spring.hpp"
-#include "diagnosis/zeros.hpp"
+#include "diagnosis/names/gap_in_spring.hpp"
+#include "diagnosis/search/zeros.hpp"
 #include "diagnosis_checks.hpp"
 #include "mounted_gear.hpp"
 

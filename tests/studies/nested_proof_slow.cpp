@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/folds.hpp"
-#include "diagnosis/judged_once.hpp"
+#include "diagnosis/frame/folds.hpp"
+#include "diagnosis/names/judged_once.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
 #include "flexspline/studies/trial.hpp"
 #include "judged_bench.hpp"

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "active_cause.hpp"
-#include "diagnosis/experiment.hpp"
-#include "diagnosis/middle.hpp"
-#include "diagnosis/next_motion.hpp"
+#include "diagnosis/frame/middle.hpp"
+#include "diagnosis/next/experiment.hpp"
+#include "diagnosis/next/next_motion.hpp"
 #include "drive_frame.hpp"
 #include "printed_name.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "autoregression.hpp"
-#include "diagnosis/noise.hpp"
+#include "diagnosis/model/noise.hpp"
 #include "drive_frame.hpp"
 #include "flexspline/core/estimate.hpp"
 

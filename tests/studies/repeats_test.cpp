@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "autoregression.hpp"
-#include "diagnosis/noise.hpp"
-#include "diagnosis/repeats.hpp"
+#include "diagnosis/frame/repeats.hpp"
+#include "diagnosis/model/noise.hpp"
 
 namespace flexspline::studies {
 namespace {

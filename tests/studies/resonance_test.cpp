@@ -1,5 +1,5 @@
 // A resonance that a model lacks, against a mode that is integrated by another method.
-#include "diagnosis/resonance.hpp"
+#include "diagnosis/unnamed/resonance.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/folds.hpp"
+#include "diagnosis/frame/folds.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/ripple.hpp"
-#include "diagnosis/spelled.hpp"
+#include "diagnosis/search/ripple.hpp"
+#include "diagnosis/words/spelled.hpp"
 
 namespace flexspline::studies {
 namespace {

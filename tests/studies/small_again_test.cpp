@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/selection.hpp"
+#include "diagnosis/search/selection.hpp"
 #include "drive_frame.hpp"
 
 namespace flexspline::studies {

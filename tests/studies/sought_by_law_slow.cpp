@@ -1,7 +1,7 @@
 // Every effect that a diagnosis seeks by its own law is found where it was concealed.
 #include <gtest/gtest.h>
 
-#include "diagnosis/cause.hpp"
+#include "diagnosis/model/cause.hpp"
 #include "diagnosis_checks.hpp"
 #include "flexspline/core/effect.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "damaged_set.hpp"
-#include "diagnosis/undecided.hpp"
+#include "diagnosis/names/undecided.hpp"
 #include "diagnosis_checks.hpp"
 #include "flexspline/studies/diagnosis_json.hpp"
 

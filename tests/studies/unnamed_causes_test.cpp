@@ -1,6 +1,6 @@
 // Causes whose names are improbable: in the model without them where something is left and
 // recordings held out confirm them.
-#include "diagnosis/unnamed_causes.hpp"
+#include "diagnosis/names/unnamed_causes.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "accepted_ids.hpp"
-#include "diagnosis/confirm.hpp"
+#include "diagnosis/names/confirm.hpp"
 #include "searched_drive.hpp"
 
 namespace flexspline::studies {

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "diagnosis/smooth_table.hpp"
-#include "diagnosis/table_form.hpp"
+#include "diagnosis/unnamed/smooth_table.hpp"
+#include "diagnosis/unnamed/table_form.hpp"
 
 namespace flexspline::studies {
 namespace {

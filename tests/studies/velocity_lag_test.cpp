@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/velocity_lag.hpp"
+#include "diagnosis/frame/velocity_lag.hpp"
 
 namespace flexspline::studies {
 namespace {

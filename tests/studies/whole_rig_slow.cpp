@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/cancelling.hpp"
-#include "diagnosis/specification.hpp"
+#include "diagnosis/model/cancelling.hpp"
+#include "diagnosis/model/specification.hpp"
 #include "diagnosis_checks.hpp"
 #include "flexspline/core/signals.hpp"
 #include "flexspline/core/simulate.hpp"

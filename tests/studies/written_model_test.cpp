@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "active_cause.hpp"
-#include "diagnosis/specification.hpp"
+#include "diagnosis/model/specification.hpp"
 #include "drive_frame.hpp"
 #include "flexspline/core/effect.hpp"
 #include "flexspline/core/rig_residuals.hpp"

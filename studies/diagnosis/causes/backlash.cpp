@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
 namespace {

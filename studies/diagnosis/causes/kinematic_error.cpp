@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -1,4 +1,5 @@
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/frame/coordinates.hpp"
+#include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -1,6 +1,7 @@
 #include <cmath>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/frame/coordinates.hpp"
+#include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
 namespace {

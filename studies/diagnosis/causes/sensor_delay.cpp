@@ -1,4 +1,4 @@
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
 namespace {

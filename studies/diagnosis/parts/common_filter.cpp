@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "diagnosis/cause_columns.hpp"
-#include "diagnosis/model.hpp"
+#include "diagnosis/model/cause_columns.hpp"
+#include "diagnosis/model/model.hpp"
 
 namespace flexspline::studies {
 namespace {

@@ -23,6 +23,7 @@ struct DriveChannels {
   /// 1/(1 + (w/motor_bandwidth)^6).
   double motor_bandwidth = std::numeric_limits<double>::infinity();
   /// Standard deviations by sample.
+  std::vector<double> motor_angle_error, torsion_error;
   std::vector<double> motor_speed_error, torsion_rate_error;
   std::vector<double> motor_acceleration_error, load_acceleration_error;
   std::vector<double> load_torque;  ///< beyond the pendulum's; empty for none

@@ -1,0 +1,267 @@
+#include "diagnosis/frame/baseline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "diagnosis/frame/coordinates.hpp"
+#include "diagnosis/frame/low_pass.hpp"
+#include "flexspline/core/cubic_basis.hpp"
+#include "flexspline/core/integrated_basis.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int kElasticKnots = 7;
+constexpr int kDissipativeKnots = 11;
+constexpr std::size_t kTravelIntervals = 24;
+constexpr Index kDryWidths = 7;
+constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
+constexpr double kWidest = 0.1;
+constexpr double kFree = -std::numeric_limits<double>::infinity();
+constexpr std::size_t kRoundings = 5;    // of a sign, each three times as wide as the one before
+constexpr double kSharpest = 1.0 / 3.0;  // of them, over the sign's rate
+
+std::vector<double> even_knots(int count) {
+  std::vector<double> knots;
+  for (int k = 1; k <= count; ++k) knots.push_back(k / static_cast<double>(count + 1));
+  return knots;
+}
+
+// From the slowest of the recordings, or a tenth of the fastest, on: g^-1 is steepest near rest.
+std::vector<double> rate_knots(const Frame& frame) {
+  const double slow = std::clamp(frame.slow_rate / frame.rate_range, 1e-3, 0.1);
+  std::vector<double> knots;
+  for (int k = 0; k < kDissipativeKnots; ++k) {
+    knots.push_back(slow * std::pow(0.75 / slow, k / static_cast<double>(kDissipativeKnots - 1)));
+  }
+  return knots;
+}
+
+// sgn(x) I_i(|x|) for every integrated spline i. Rows are written some at a time: they lie across
+// the columns.
+void odd_columns(const IntegratedBasis& basis, const ArrayXd& x, Eigen::Ref<MatrixXd> out) {
+  constexpr Index kTogether = 64;
+  const Index size = static_cast<Index>(basis.size());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> some(kTogether, size);
+  for (Index first = 0; first < x.size(); first += kTogether) {
+    const Index count = std::min(kTogether, x.size() - first);
+    for (Index r = 0; r < count; ++r) {
+      auto row = some.row(r);
+      basis.values(std::abs(x[first + r]), {row.data(), basis.size()});
+      if (x[first + r] < 0.0) row = -row;
+    }
+    out.middleRows(first, count) = some.topRows(count);
+  }
+}
+
+// The torsion from where it is unloaded: shape[2] is the zero's error over the range.
+ArrayXd wound(const Frame& frame, std::span<const double> shape) {
+  return frame.torsion / frame.torsion_range - shape[2];
+}
+
+ArrayXd modulation(const Frame& frame, std::span<const double> shape) {
+  const ArrayXd x2 = wound(frame, shape).square();
+  return (shape[0] * x2 + shape[1] * x2.square()).max(-2.0).min(2.0).exp();
+}
+
+// Differences of neighbouring coefficients, each over its own deviation.
+void penalise_differences(const Frame& frame, const ArrayXd& deviation, Eigen::Ref<MatrixXd> rows) {
+  rows.setZero();
+  if (!(frame.torque_range > 0.0)) return;
+  for (Index k = 0; k < deviation.size(); ++k) {
+    rows(k, k + 1) = 1.0 / (deviation[k] * frame.torque_range);
+    rows(k, k) = -rows(k, k + 1);
+  }
+}
+
+// Where a coefficient stands between its neighbours: means of two knots, clamped (Greville).
+ArrayXd midpoints(const IntegratedBasis& basis) {
+  const auto knots = basis.breakpoints();
+  const Index last = static_cast<Index>(knots.size()) - 1;
+  const auto at = [&](Index k) {
+    return 0.5 * (knots[static_cast<std::size_t>(std::clamp<Index>(k - 1, 0, last))] +
+                  knots[static_cast<std::size_t>(std::clamp<Index>(k, 0, last))]);
+  };
+  return ArrayXd::NullaryExpr(static_cast<Index>(basis.size()) - 1,
+                              [&](Index k) { return 0.5 * (at(k) + at(k + 1)); });
+}
+
+Eigen::VectorXd heights(const IntegratedBasis& basis) {
+  Eigen::VectorXd whole(static_cast<Index>(basis.size()));
+  basis.values(1.0, {whole.data(), basis.size()});
+  return whole;
+}
+
+// f = sum_i c_i I_i(x); of a firm spring sum_i c_i (I_i(x) + e I_i(1) x), whose slope with c_i >= 0
+// is nowhere below e/(1 + e) of its mean.
+void elastic_columns(const Frame& frame, const IntegratedBasis& basis, const ArrayXd& x,
+                     Eigen::Ref<MatrixXd> out) {
+  odd_columns(basis, x, out);
+  if (!frame.firm_spring) return;
+  const Eigen::VectorXd whole = heights(basis);
+  for (Index k = 0; k < whole.size(); ++k) {
+    out.col(k) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
+  }
+}
+
+BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) {
+  const IntegratedBasis elastic(even_knots(kElasticKnots));
+  const IntegratedBasis dissipative(rate_knots(frame));
+  const bool offset = frame.rig == Rig::specimen;
+  const Index f = static_cast<Index>(elastic.size());
+  const Index g = static_cast<Index>(dissipative.size());
+  BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
+                    Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g,
+                    MatrixXd::Zero(f + g - 2, f + g + (offset ? 1 : 0))};
+  penalise_differences(frame, ArrayXd::Ones(f - 1), c.prior.topLeftCorner(f - 1, f));
+  penalise_differences(frame, midpoints(dissipative).inverse(), c.prior.block(f - 1, f, g - 1, g));
+  elastic_columns(frame, elastic, wound(frame, shape), c.columns.leftCols(f));
+  odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
+              c.columns.middleCols(f, g));
+  if (offset) {
+    c.columns.col(f + g).setOnes();
+    c.lower[f + g] = kFree;
+  }
+  return c;
+}
+
+BaselineColumns travelling_columns(const Frame& frame, std::span<const double> shape) {
+  const CubicBasis position(frame.lowest, frame.highest, kTravelIntervals);
+  const Index f = static_cast<Index>(position.size());
+  const auto widths = travelling_widths(shape);
+  const Index g = static_cast<Index>(widths.size()) + 1;
+  BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g,
+                    MatrixXd::Zero(f - 1, f + g)};
+  penalise_differences(frame, ArrayXd::Ones(f - 1), c.prior.leftCols(f));
+  c.lower.head(f).setConstant(kFree);
+  for (Index r = 0; r < frame.rows(); ++r) {
+    const auto local = position.at(frame.torsion[r]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
+    }
+  }
+  // Each width is a third of the next: tanh(3u) = t (3 + t^2)/(1 + 3 t^2), t = tanh(u).
+  ArrayXd sign = rounded_sign(frame.torsion_rate, widths.back());
+  for (Index k = g - 2; k >= 0; --k) {
+    c.columns.col(f + k) = sign;
+    sign *= (3.0 + sign.square()) / (1.0 + 3.0 * sign.square());
+  }
+  c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
+  return c;
+}
+
+// Dry friction rises and saturates in its own way: a mixture of tanh of several widths.
+BaselineColumns motor_columns(const Frame& frame) {
+  const Index n = kDryWidths;
+  const Index load = frame.rig == Rig::servo ? 2 : 0;
+  BaselineColumns c{MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1, n,
+                    MatrixXd(0, 1 + n + load)};
+  c.columns.col(0) = frame.motor_speed;
+  const auto widths = dry_widths(frame);
+  for (Index k = 0; k < n; ++k) {
+    c.columns.col(1 + k) = rounded_sign(frame.motor_speed, widths[static_cast<std::size_t>(k)]);
+  }
+  if (load > 0) {
+    c.columns.col(1 + n) = frame.gravity;
+    c.columns.col(2 + n) = frame.load_acceleration;
+  }
+  return c;
+}
+
+BaselineColumns before_a_filter(const Frame& frame, Equation equation,
+                                std::span<const double> shape) {
+  if (equation == Equation::torsion) {
+    return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
+  }
+  if (equation == Equation::load)
+    return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1, MatrixXd(0, 1)};
+  return motor_columns(frame);
+}
+
+}  // namespace
+
+Index prior_rows(const Frame& frame, Equation equation) {
+  if (equation != Equation::torsion) return 0;
+  if (frame.travels) return static_cast<Index>(kTravelIntervals) + 2;
+  return kElasticKnots + 2 + kDissipativeKnots + 2;
+}
+
+std::vector<double> dry_widths(const Frame& frame) {
+  std::vector<double> widths;
+  for (Index k = 0; k < kDryWidths; ++k) {
+    widths.push_back(frame.speed_range * kNarrowest *
+                     std::pow(kWidest / kNarrowest, static_cast<double>(k) / (kDryWidths - 1.0)));
+  }
+  return widths;
+}
+
+std::vector<double> travelling_widths(std::span<const double> shape) {
+  std::vector<double> widths;
+  double width = kSharpest * std::exp(shape[0]);
+  for (std::size_t k = 0; k < kRoundings; ++k, width *= 3.0) widths.push_back(width);
+  return widths;
+}
+
+double coulomb_width(const Frame& frame, std::span<const double> shape) {
+  if (frame.travels) return std::exp(shape[0]);
+  return std::max(frame.slow_rate, 1e-3 * frame.rate_range);
+}
+
+ArrayXd target_of(const Frame& frame, Equation equation) {
+  switch (equation) {
+    case Equation::torsion:
+      return frame.torque;
+    case Equation::load:
+      return frame.torque - frame.load_inertia * frame.load_acceleration;
+    case Equation::motor:
+      break;
+  }
+  if (frame.rig == Rig::servo) return frame.motor_torque;
+  return frame.motor_torque - frame.motor_inertia * frame.motor_acceleration -
+         frame.torque / frame.ratio;
+}
+
+Frame motion_at(const Frame& frame, const std::vector<Index>& rows) {
+  Frame few;
+  few.rig = frame.rig;
+  few.travels = frame.travels;
+  few.firm_spring = frame.firm_spring;
+  few.torque_range = frame.torque_range;
+  few.torsion_range = frame.torsion_range;
+  few.lowest = frame.lowest;
+  few.highest = frame.highest;
+  few.rate_range = frame.rate_range;
+  few.slow_rate = frame.slow_rate;
+  few.speed_range = frame.speed_range;
+  few.time = frame.time(rows);
+  few.torsion = frame.torsion(rows);
+  few.torsion_rate = frame.torsion_rate(rows);
+  few.motor_speed = frame.motor_speed(rows);
+  few.load_speed = frame.load_speed(rows);
+  few.load_acceleration = frame.load_acceleration(rows);
+  if (frame.rig == Rig::servo) few.gravity = frame.gravity(rows);
+  return few;
+}
+
+BaselineColumns baseline_columns(const Frame& frame, Equation equation,
+                                 std::span<const double> shape) {
+  BaselineColumns c = before_a_filter(frame, equation, shape);
+  if (frame.torque_lag > 0.0) shared_low_pass(frame, frame.torque_lag)->apply(c.columns);
+  return c;
+}
+
+ArrayXd told_torque(const Frame& frame) {
+  const MatrixXd x = baseline_columns(frame, Equation::torsion, std::vector(3, 0.0)).columns;
+  const MatrixXd rows = frame.usable.matrix().asDiagonal() * x;
+  const Eigen::VectorXd torque = (frame.torque * frame.usable).matrix();
+  return (x * rows.colPivHouseholderQr().solve(torque)).array();
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/frame/frame.hpp"
+
+namespace flexspline::studies {
+
+/// Of a firm spring, over its mean slope.
+inline constexpr double kLeastSlope = 0.6;
+
+/// Columns of the baseline's linear parameters in one equation, and their lower bounds.
+struct BaselineColumns {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd lower;
+  Eigen::Index elastic = 0;      ///< the first columns: f; of the motor: viscous friction
+  Eigen::Index dissipative = 0;  ///< the next: g^-1; of the motor: dry friction
+  /// Rows whose product with the parameters is of unit variance before anything is measured: a
+  /// slope of a law changes from one knot to the next by as much as the largest torque would rise
+  /// over the range, and at a rate over that rate. Where no row tells, a law goes on as it came.
+  Eigen::MatrixXd prior;
+};
+
+/// What the equation's own output is, measured: tau, tau - J2 theta_l'', tau_m - J1 theta_m'' -
+/// tau/N; on a servo what drives it.
+Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
+
+BaselineColumns baseline_columns(const Frame& frame, Equation equation,
+                                 std::span<const double> shape);
+
+/// The transmitted torque as far as the torsion and its rate tell it, Nm by row: its least squares
+/// over usable rows on the columns of the torsion equation's baseline (h = 1, zero as it is),
+/// without their bounds; hysteresis that remembers its way is not in it. Free of the sensor's
+/// noise, of any colour, which smoothing keeps in part.
+Eigen::ArrayXd told_torque(const Frame& frame);
+
+/// What baseline_columns() looks at, of some rows alone. Not for a torque behind a filter, which
+/// takes every row.
+Frame motion_at(const Frame& frame, const std::vector<Eigen::Index>& rows);
+
+/// Rows of a prior of baseline_columns().
+Eigen::Index prior_rows(const Frame& frame, Equation equation);
+
+/// Widths of the tanh that the motor's dry friction is a mixture of, in the order of its columns,
+/// rad/s.
+std::vector<double> dry_widths(const Frame& frame);
+
+/// The same of an angle that travels, rad/s (m/s), about the rate of its shape.
+std::vector<double> travelling_widths(std::span<const double> shape);
+
+/// Rate below which dry friction across the gear is rounded off.
+double coulomb_width(const Frame& frame, std::span<const double> shape);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "diagnosis/frame/frame.hpp"
+
+namespace flexspline::studies {
+
+/// The speed, acceleration and position that an equation is about: of the motor, of the load, or
+/// the torsion.
+const Eigen::ArrayXd& speed_of(const Frame& frame, Equation equation);
+const Eigen::ArrayXd& acceleration_of(const Frame& frame, Equation equation);
+const Eigen::ArrayXd& position_of(const Frame& frame, Equation equation);
+
+/// Way since the last reversal of every recording.
+Eigen::ArrayXd since_reversal(const Frame& frame, const Eigen::ArrayXd& position,
+                              const Eigen::ArrayXd& speed);
+
+/// x/|x| rounded off below the width.
+Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, double width);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,49 @@
+#include "diagnosis/frame/counted.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flexspline::studies {
+namespace {
+
+// Least distance of two values that follow each other: of an encoder that moves slowly its step.
+double level_of(std::span<const double> angle) {
+  const auto [low, high] = std::ranges::minmax(angle);
+  const double rounding = 1e-9 * (high - low);
+  double least = high - low;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    const double step = std::abs(angle[i] - angle[i - 1]);
+    if (step > rounding) least = std::min(least, step);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<double> counted(std::span<const double> time, std::span<const double> angle,
+                            double bandwidth) {
+  const double half = std::numbers::pi / bandwidth;
+  const double two_levels = 1.99 * level_of(angle);  // but for rounding
+  std::vector<double> tells(angle.size());
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    while (time[first] < time[i] - half) ++first;
+    while (last + 1 < time.size() && time[last + 1] <= time[i] + half) ++last;
+    // Nothing faster than every other sample is kept.
+    const std::size_t from = std::min(first, i - std::min<std::size_t>(i, 1));
+    const std::size_t to = std::max(last, std::min(i + 1, angle.size() - 1));
+    tells[i] = std::abs(angle[to] - angle[from]) >= two_levels ? 1.0 : 0.0;
+  }
+  return tells;
+}
+
+std::vector<double> counted_motor(const Recording& recording, double bandwidth) {
+  const std::vector<double>* angle = recording.find(Quantity::motor_angle);
+  if (angle == nullptr) angle = recording.find(Quantity::load_angle);
+  if (angle == nullptr) return std::vector<double>(recording.time.size(), 1.0);
+  return counted(recording.time, *angle, bandwidth);
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <list>
+#include <memory>
+#include <optional>
+
+#include "diagnosis/frame/shared_baseline.hpp"
+#include "diagnosis/model/model.hpp"
+
+namespace flexspline::studies {
+
+/// One equation before weighting: columns of the baseline and of each cause side by side; none of a
+/// cause that adds nothing to this equation.
+struct EquationColumns {
+  std::shared_ptr<const BaselineColumns> own;
+  std::vector<std::shared_ptr<const Columns>> causes;
+};
+
+/// The columns of models on one frame. Those whose shapes did not change are not built again: a fit
+/// changes one shape at a time, and candidates share their baseline.
+class ModelColumns {
+ public:
+  ModelColumns(const Frame& frame, const Reference& reference)
+      : frame_(frame), reference_(reference) {}
+
+  /// The frame as the causes of the model that change it leave it; valid until the next call.
+  const Frame& seen(const DriveModel& model);
+  EquationColumns at(const DriveModel& model, Equation equation);
+  /// Of each cause alone.
+  std::vector<std::shared_ptr<const Columns>> causes_at(const DriveModel& model, Equation equation);
+
+ private:
+  struct Built {
+    const CauseForm* form;
+    Equation equation;
+    std::vector<double> shape;
+    std::shared_ptr<const Columns> columns;
+  };
+  std::shared_ptr<const Columns> columns_of(const Frame& seen, const ActiveCause& cause,
+                                            Equation equation);
+
+  const Frame& frame_;
+  const Reference& reference_;
+  std::optional<Frame> changed_;
+  std::vector<std::vector<double>> changed_by_;  ///< shapes of the causes that changed it
+  std::list<Built> built_;                       ///< on the frame seen last; the latest first
+};
+
+/// Shapes of the baseline in one equation.
+std::span<const double> baseline_shape(const DriveModel& model, Equation equation);
+
+}  // namespace flexspline::studies

@@ -1,0 +1,98 @@
+#include "diagnosis/names/confirm.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "diagnosis/model/cancelling.hpp"
+#include "diagnosis/unnamed/unnamed.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::size_t kMostAlternatives = 2;
+constexpr int kFinalSteps = 12;
+
+// What is read from the final model beside a cause's proof.
+void complete(const Frame& frame, Selection& s, Proof& proof) {
+  if (s.accepted.empty()) return;
+  const auto evidence = left_to_tables(frame, s.final);
+  for (std::size_t i = 0; i < s.accepted.size(); ++i) {
+    double most = 0.0;
+    for (Equation at : s.accepted[i].trial.cause.form->at) {
+      most = std::max(most, evidence[index_of(at)]);
+    }
+    NameEvidence& name = proof.causes[i].name;
+    name.left_over = most / (0.5 * s.accepted[i].trial.gain);
+    name.alternatives = alternatives_of(s.accepted[i], s).size();
+    s.accepted[i].probability = probability_of(proof.causes[i]);
+  }
+}
+
+bool acts_elsewhere(const Frame& frame, const CauseForm& form, Equation equation) {
+  return std::ranges::any_of(form.at, [&](Equation at) { return at != equation && frame.has(at); });
+}
+
+// Of two that take most of each other back, and act nowhere else, the one that is worth less.
+std::optional<std::size_t> taken_back(const Frame& frame, const Limits& limits,
+                                      const Selection& s) {
+  const DriveModel& model = s.final.fit.model;
+  const std::size_t immaterial = model.causes.size() - s.accepted.size();
+  for (const Cancelling& pair : cancelling(frame, model, s.final.reference, limits.half)) {
+    if (pair.second < immaterial) continue;
+    if (acts_elsewhere(frame, *model.causes[pair.first].form, pair.equation) ||
+        acts_elsewhere(frame, *model.causes[pair.second].form, pair.equation)) {
+      continue;
+    }
+    const std::size_t second = pair.second - immaterial;
+    if (pair.first < immaterial) return second;
+    const std::size_t first = pair.first - immaterial;
+    return s.accepted[first].trial.gain < s.accepted[second].trial.gain ? first : second;
+  }
+  return std::nullopt;
+}
+
+Result<void> leave_out_taken_back(const Frame& frame, const Limits& limits, Selection& s) {
+  while (const auto cause = taken_back(frame, limits, s)) {
+    const auto left_out =
+        leave_out(frame, s, *cause, "another takes most of it back: only their sum is told");
+    if (!left_out) return left_out;
+  }
+  return {};
+}
+
+std::string_view why_not(const CauseProof& cause) {
+  return cause.gain > 0.0 ? "it hardly lowers the error on recordings held out"
+                          : "it does not lower the error on recordings held out";
+}
+
+}  // namespace
+
+std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& s) {
+  std::vector<std::string> ids;
+  for (const Trial& t : accepted.rivals) {
+    const bool named = std::ranges::any_of(
+        s.accepted, [&](const Accepted& a) { return a.trial.cause.row == t.cause.row; });
+    if (!named && ids.size() < kMostAlternatives) ids.emplace_back(t.cause.row->id);
+  }
+  return ids;
+}
+
+Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
+  while (true) {
+    const auto told = leave_out_taken_back(frame, limits, s);
+    if (!told) return tl::unexpected(told.error());
+    auto proof = prove(frame, s, limits.threads);
+    if (!proof) return proof;
+    if (const auto doubtful = unconfirmed(*proof, limits)) {
+      const auto left_out = leave_out(frame, s, *doubtful, why_not(proof->causes[*doubtful]));
+      if (!left_out) return tl::unexpected(left_out.error());
+      continue;
+    }
+    complete(frame, s, *proof);
+    const auto fitted = fit_all(frame, s.final, kFinalSteps, kJudgedFall);
+    if (!fitted) return tl::unexpected(fitted.error());
+    return proof;
+  }
+}
+
+}  // namespace flexspline::studies

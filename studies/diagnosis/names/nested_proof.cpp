@@ -1,0 +1,168 @@
+#include "diagnosis/names/nested_proof.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <numeric>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "diagnosis/frame/folds.hpp"
+#include "diagnosis/names/confirm.hpp"
+#include "flexspline/core/in_parallel.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr std::size_t kMostAtOnce = 2;  // each holds a frame, and has threads of its own
+
+/// How far searches that run side by side are together.
+class JointProgress {
+ public:
+  JointProgress(const DiagnosisProgress& progress, std::size_t searches)
+      : progress_(progress), share_(searches, 0.0) {}
+
+  /// Of the search in all recordings (0), or without the k-th fold.
+  DiagnosisProgress of(std::size_t k) {
+    if (!progress_) return {};
+    return [this, k](double share, std::string_view stage) {
+      const std::scoped_lock lock(mutex_);
+      share_[k] = share;
+      const double all = static_cast<double>(share_.size());
+      progress_(std::accumulate(share_.begin(), share_.end(), 0.0) / all,
+                k == 0 ? std::string(stage)
+                       : fmt::format("without fold {} of {}: {}", k, share_.size() - 1, stage));
+    };
+  }
+
+ private:
+  const DiagnosisProgress& progress_;
+  std::mutex mutex_;
+  std::vector<double> share_;
+};
+
+std::vector<std::string> named_by(const Finding& finding) {
+  std::vector<std::string> named;
+  for (const Accepted& accepted : finding.selection.accepted) {
+    named.emplace_back(accepted.trial.cause.row->id);
+    std::ranges::copy(alternatives_of(accepted, finding.selection), std::back_inserter(named));
+  }
+  return named;
+}
+
+Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
+                                    const ArrayXd& fold, const Limits& limits, Index most_rows,
+                                    const DiagnosisProgress& progress) {
+  auto frame = make_frame(without_rows(all, whole, fold), most_rows);
+  if (!frame) return tl::unexpected(frame.error());
+  const auto finding =
+      find_causes(std::move(*frame), limits, progress).and_then([&](Finding&& found) {
+        return with_probable_names(std::move(found), limits);
+      });
+  if (!finding) return tl::unexpected(finding.error());
+  auto judged = judge(whole, fold, *finding);
+  if (!judged) return tl::unexpected(judged.error());
+  return SearchedFold{std::move(judged->held), std::move(judged->before.residual),
+                      std::move(judged->after.residual), std::move(judged->of_motion),
+                      named_by(*finding)};
+}
+
+/// Rows of all folds, and their residuals.
+struct Pooled {
+  ArrayXd held;
+  PerEquation before, after;
+  PerEquation of_motion;  ///< empty where no fold has it
+};
+
+bool has(const SearchedFold& fold, Equation equation) {
+  return fold.after[index_of(equation)].size() > 0;
+}
+
+Pooled pooled(const Frame& whole, const std::vector<Result<SearchedFold>>& folds) {
+  const ArrayXd zero = ArrayXd::Zero(whole.rows());
+  Pooled pool{zero, {zero, zero, zero}, {zero, zero, zero}, {}};
+  for (const auto& fold : folds) {
+    pool.held += fold->held;
+    for (Equation equation : whole.equations) {
+      if (!has(*fold, equation)) continue;
+      const std::size_t e = index_of(equation);
+      pool.before[e] += fold->before[e] * fold->held;
+      pool.after[e] += fold->after[e] * fold->held;
+      if (fold->of_motion[e].size() == 0) continue;
+      if (pool.of_motion[e].size() == 0) pool.of_motion[e] = zero;
+      pool.of_motion[e] += fold->of_motion[e] * fold->held;
+    }
+  }
+  return pool;
+}
+
+}  // namespace
+
+Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, const Limits& limits,
+                    Index most_rows, const DiagnosisProgress& progress) {
+  const auto folds = nested ? outer_folds(whole) : std::vector<ArrayXd>{};
+  Searches searches;
+  searches.folds.resize(folds.size(), failure(ErrorCode::numerics, "nothing was searched"));
+  JointProgress steps(progress, 1 + folds.size());
+  in_parallel(1 + folds.size(), std::min(kMostAtOnce, threads_for(limits.threads)),
+              [&](std::size_t k) {
+                if (k == 0) {
+                  searches.finding = find_causes(whole, limits, steps.of(0));
+                } else {
+                  searches.folds[k - 1] =
+                      search_without(all, whole, folds[k - 1], limits, most_rows, steps.of(k));
+                }
+              });
+  return searches;
+}
+
+void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                    Finding& finding) {
+  const auto& [frame, selection, proof] = finding;
+  if (folds.empty() || !std::ranges::all_of(folds, &Result<SearchedFold>::has_value)) return;
+  const Pooled pool = pooled(whole, folds);
+  const ArrayXd held = pool.held * frame.usable;
+  if (held.sum() == 0.0) return;
+  const auto judged = [&](Equation at) {
+    return !frame.has(at) ||
+           std::ranges::all_of(folds, [&](const auto& fold) { return has(*fold, at); });
+  };
+  for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
+    const CauseForm& form = *selection.accepted[i].trial.cause.form;
+    if (!std::ranges::all_of(form.at, judged)) continue;
+    take_errors(frame, selection.final, form, pool.before, pool.after, held,
+                finding.proof.causes[i].name);
+  }
+}
+
+Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                                 Equation equation) {
+  const std::size_t e = index_of(equation);
+  NestedProof nested;
+  for (const auto& fold : folds) {
+    if (!fold) return tl::unexpected(fold.error());
+    if (!has(*fold, equation)) {
+      return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
+    }
+    nested.named.push_back(fold->named);
+  }
+  const Pooled pool = pooled(whole, folds);
+  nested.proof =
+      proof_on(whole, pool.held, equation, pool.before[e], pool.after[e], pool.of_motion[e]);
+  nested.proof.folds = static_cast<int>(folds.size());
+  return nested;
+}
+
+double stability_of(const NestedProof& nested, const Cause& cause) {
+  const auto is_named = [&](const std::vector<std::string>& names) {
+    const auto has = [&names](const std::string& id) { return std::ranges::count(names, id) > 0; };
+    return has(cause.effect) || std::ranges::any_of(cause.alternatives, has);
+  };
+  return static_cast<double>(std::ranges::count_if(nested.named, is_named)) /
+         static_cast<double>(nested.named.size());
+}
+
+}  // namespace flexspline::studies

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "diagnosis/names/judged_once.hpp"
+
+namespace flexspline::studies {
+
+/// What the whole search finds without one outer fold, and leaves of it.
+struct SearchedFold {
+  Eigen::ArrayXd held;             ///< 1 in each usable row of the fold
+  PerEquation before, after;       ///< residuals of the baseline and of what was found
+  PerEquation of_motion;           ///< torque_of_motion_error() of what was found
+  std::vector<std::string> named;  ///< causes and their alternatives
+};
+
+/// The search in all recordings, and without each outer fold.
+struct Searches {
+  Result<Finding> finding = failure(ErrorCode::numerics, "nothing was searched");
+  std::vector<Result<SearchedFold>> folds;
+};
+
+/// The search in `whole`, the frame of all recordings; where nested the whole search, zeros, gap,
+/// incidents, choice and noise, once more without every outer fold (outer_folds): in recordings
+/// from which its rows are deleted, each of which is judged by what was found without it. Two at a
+/// time; the same for any number of threads. Errors of a fold: what makes its recordings unusable;
+/// those of fits.
+Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, const Limits& limits,
+                    Eigen::Index most_rows, const DiagnosisProgress& progress);
+
+/// Takes the errors of the whole search on rows that it did not have as evidence of names
+/// (NameEvidence), in place of those of causes that were chosen with these rows in view. Where a
+/// fold lacks one of a cause's equations its evidence stays; where a fold failed all does.
+void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                    Finding& finding);
+
+/// What the folds prove together.
+struct NestedProof {
+  HoldoutProof proof;
+  std::vector<std::vector<std::string>> named;  ///< by outer fold: causes and their alternatives
+};
+
+/// In one equation. Errors: those of the folds; numerics, where one of them has no such equation.
+Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+                                 Equation equation);
+
+/// Share of the folds that name a cause or one of its alternatives.
+double stability_of(const NestedProof& nested, const Cause& cause);
+
+}  // namespace flexspline::studies

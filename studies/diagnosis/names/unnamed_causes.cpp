@@ -1,0 +1,82 @@
+#include "diagnosis/names/unnamed_causes.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/names/undecided.hpp"
+#include "diagnosis/search/explanation.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+// The causes of the proof whose names are improbable go to the end of the list and of the model.
+std::size_t put_improbable_last(Selection& s, Proof& proof, const Limits& limits) {
+  DriveModel& model = s.final.fit.model;
+  std::size_t named = s.accepted.size();
+  for (std::size_t i = s.accepted.size(); i-- > 0;) {
+    s.accepted[i].probability = probability_of(proof.causes[i]);
+    if (s.accepted[i].probability >= limits.probability) continue;
+    const auto to_the_end = [&](auto& list, std::size_t at) {
+      const auto first = list.begin() + static_cast<std::ptrdiff_t>(at);
+      std::rotate(first, first + 1, list.end());
+    };
+    to_the_end(s.accepted, i);
+    to_the_end(proof.causes, i);
+    to_the_end(model.causes, s.immaterial.size() + i);
+    to_the_end(model.coefficients, s.immaterial.size() + i);
+    --named;
+  }
+  return named;
+}
+
+// With the first causes alone.
+Result<Selection> first_causes(const Frame& frame, const Limits& limits, Selection s,
+                               std::size_t count) {
+  while (s.accepted.size() > count) {
+    const auto left_out =
+        leave_out(frame, s, s.accepted.size() - 1, "its name is hardly likelier right than wrong");
+    if (!left_out) return tl::unexpected(left_out.error());
+  }
+  locate_misfit(frame, limits, s);
+  return s;
+}
+
+void take_names(Selection& s, std::size_t from) {
+  const auto first = s.accepted.begin() + static_cast<std::ptrdiff_t>(from);
+  s.unnamed.assign(std::make_move_iterator(first), std::make_move_iterator(s.accepted.end()));
+  s.accepted.erase(first, s.accepted.end());
+}
+
+// What the named causes leave.
+void take_misfit(Selection& s, Selection named) {
+  s.before = std::move(named.before);
+  s.after = std::move(named.after);
+  s.remainder = named.remainder;
+}
+
+}  // namespace
+
+Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Selection& s,
+                                    Proof proof) {
+  const std::size_t count = put_improbable_last(s, proof, limits);
+  if (count == s.accepted.size()) {
+    locate_misfit(frame, limits, s);
+    return proof;
+  }
+  auto named = first_causes(frame, limits, s, count);
+  if (!named) return tl::unexpected(named.error());
+  auto proof_of_named = prove(frame, *named, limits.threads);
+  if (!proof_of_named) return proof_of_named;
+  const bool left = named->remainder || is_beyond_noise(frame, proof_of_named->holdout, limits);
+  const bool stay = left && implausible(frame, s, limits).empty();
+  proof.causes.resize(count);
+  if (stay) {
+    take_names(s, count);
+    take_misfit(s, std::move(*named));
+    return proof;
+  }
+  s = std::move(*named);
+  proof_of_named->causes = std::move(proof.causes);
+  return proof_of_named;
+}
+
+}  // namespace flexspline::studies

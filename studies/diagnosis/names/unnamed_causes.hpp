@@ -1,0 +1,16 @@
+#pragma once
+
+#include "diagnosis/proof/prove.hpp"
+
+namespace flexspline::studies {
+
+/// Takes the names of causes that recordings held out confirm and whose name is less likely than
+/// limits.probability: a doubted name is no reason to predict worse. Where the named causes alone
+/// leave no more than noise, or an unnamed one would be implausible, these are withdrawn; else they
+/// stay, behind the named ones, and Selection has what the named causes leave, as that is what no
+/// name explains. proof: of all the causes, with the evidence of their names; what is returned has
+/// the errors of the model that stays, and the named causes as they were proved beside the others.
+Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Selection& selection,
+                                    Proof proof);
+
+}  // namespace flexspline::studies

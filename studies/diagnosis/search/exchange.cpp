@@ -1,0 +1,61 @@
+#include "diagnosis/search/exchange.hpp"
+
+#include <algorithm>
+
+#include "flexspline/core/in_parallel.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+bool is_in(const DriveModel& model, const CauseRow* row) {
+  return std::ranges::count(model.causes, row, &ActiveCause::row) > 0;
+}
+
+/// A cause and its alternatives, each tried on the model without it: the cause first.
+Result<std::vector<Trial>> contest(const Frame& frame, const Limits& limits, const Selection& s,
+                                   std::size_t cause) {
+  auto without = reduced(frame, s.final, cause, kRefreshSteps);
+  if (!without) return tl::unexpected(without.error());
+  Findings rest = s.final;
+  rest.fit = std::move(*without);
+  std::vector<ActiveCause> entries = {s.final.fit.model.causes[cause]};
+  for (const Trial& rival : s.accepted[cause].rivals) {
+    if (!is_in(s.final.fit.model, rival.cause.row)) entries.push_back(rival.cause);
+  }
+  std::vector<Trial> trials(entries.size());
+  in_parallel(entries.size(), threads_for(limits.threads),
+              [&](std::size_t k) { trials[k] = try_cause(frame, rest, entries[k]); });
+  return trials;
+}
+
+// The model has its causes in the order of the list.
+void put_in_place(Selection& s, std::size_t cause, std::vector<Trial> trials, std::size_t best,
+                  const Limits& limits) {
+  std::vector<Trial> field = std::move(s.accepted[cause].field);
+  s.accepted.erase(s.accepted.begin() + static_cast<long>(cause));
+  s.final.fit = trials[best].fit;
+  s.accepted.push_back(accept(std::move(trials), best, limits));
+  std::ranges::move(field, std::back_inserter(s.accepted.back().field));
+}
+
+}  // namespace
+
+Result<void> exchange_for_better(const Frame& frame, const Limits& limits, Selection& s) {
+  if (s.accepted.size() < 2) return {};
+  // The last has been compared beside all others.
+  for (std::size_t i = s.accepted.size() - 1; i-- > 0;) {
+    const Accepted& a = s.accepted[i];
+    if (a.rivals.empty() || a.trial.cause.row->of_baseline()) continue;
+    auto trials = contest(frame, limits, s, i);
+    if (!trials) return tl::unexpected(trials.error());
+    const auto best = std::ranges::max_element(*trials, {}, &Trial::net_gain);
+    if (best == trials->begin() || !(best->gain > 0.0)) continue;
+    const auto at = static_cast<std::size_t>(best - trials->begin());
+    put_in_place(s, i, std::move(*trials), at, limits);
+    const auto again = refresh(frame, s.final, kRefreshSteps);
+    if (!again) return again;
+  }
+  return {};
+}
+
+}  // namespace flexspline::studies

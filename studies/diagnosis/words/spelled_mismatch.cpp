@@ -1,0 +1,105 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "diagnosis/search/explanation.hpp"
+#include "diagnosis/words/spelled.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+constexpr std::size_t kMostMismatches = 6;
+constexpr int kSteps = 8;
+
+Mismatch at_worst(const Frame& frame, const Findings& findings, Equation equation) {
+  const WorstWindow w = worst_window(frame, findings, equation);
+  return {.recording = frame.segments[w.segment].id,
+          .from_s = w.from_s,
+          .to_s = w.to_s,
+          .coordinate = {},
+          .equation = std::string(name_of(equation)),
+          .says = {}};
+}
+
+bool listed(const std::vector<Mismatch>& list, std::string_view coordinate) {
+  return std::ranges::any_of(list, [&](const Mismatch& m) { return m.coordinate == coordinate; });
+}
+
+// What a cause too small for a name takes away, where it is largest: the baseline's residual has
+// it no more.
+Mismatch mismatch_of(const Frame& frame, const Selection& s, const Accepted& small) {
+  const auto at = static_cast<std::size_t>(&small - s.immaterial.data());
+  const Equation equation = first_equation(frame, *small.trial.cause.form);
+  Findings without = s.baseline;
+  if (auto fit = reduced(frame, s.baseline, at, kSteps)) without.fit = std::move(*fit);
+  Mismatch m = at_worst(frame, without, equation);
+  m.coordinate = small.trial.cause.row->coordinate;
+  m.share_of_excess = std::clamp(small.trial.removed, 0.0, 1.0);
+  m.says = fmt::format("the {} equation misses {:.2g} % of torque, organised by {}",
+                       name_of(equation), 100.0 * small.trial.size, m.coordinate);
+  return m;
+}
+
+// What a cause of the model takes away, named or not; its message still lacks the cause.
+Mismatch explained(const Frame& frame, const Selection& s, const Accepted& a) {
+  const Equation equation = first_equation(frame, *a.trial.cause.form);
+  Mismatch m = at_worst(frame, s.baseline, equation);
+  m.coordinate = a.trial.cause.row->coordinate;
+  m.share_of_excess = std::clamp(a.trial.removed, 0.0, 1.0);
+  m.says = fmt::format("the {} equation misses ", name_of(equation));
+  return m;
+}
+
+Mismatch incident_in(const Frame& frame, const Incident& one) {
+  const Segment& s = frame.segments[one.segment];
+  return {.recording = s.id,
+          .from_s = frame.time[one.first],
+          .to_s = frame.time[one.first + one.count - 1],
+          .coordinate = "window",
+          .equation = std::string(name_of(one.equation)),
+          .says = fmt::format("{} alone has something in the {} equation from {:.4g} to {:.4g} s "
+                              "(rms {:.2g} % of torque): left out, look at the recording",
+                              s.id, name_of(one.equation), frame.time[one.first],
+                              frame.time[one.first + one.count - 1], 100.0 * one.size)};
+}
+
+}  // namespace
+
+std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s, const Limits& limits,
+                                       const std::optional<Resonance>& resonance) {
+  std::vector<Mismatch> list;
+  for (const Incident& one : frame.incidents) list.push_back(incident_in(frame, one));
+  for (const Accepted& a : s.accepted) {
+    if (listed(list, a.trial.cause.row->coordinate)) continue;
+    list.push_back(explained(frame, s, a));
+    list.back().says += fmt::format("{}: {}", a.trial.cause.row->id, a.trial.cause.form->equation);
+  }
+  for (const Accepted& a : s.unnamed) {
+    if (listed(list, a.trial.cause.row->coordinate)) continue;
+    list.push_back(explained(frame, s, a));
+    list.back().says += fmt::format("what has the form of {}, a name of probability {:.2g}",
+                                    a.trial.cause.row->id, a.probability);
+  }
+  if (resonance) {
+    list.push_back(at_worst(frame, s.final, resonance->equation));
+    list.back().coordinate = "lag";
+    list.back().says = in_words(*resonance);
+  }
+  if (const Accepted* small = left_unnamed(s, limits)) {
+    list.push_back(mismatch_of(frame, s, *small));
+  }
+  for (const CoordinateScore& score : s.accepted.empty() ? s.after : s.before) {
+    // Where something is left, the strongest coordinate is told even if it orders little of it.
+    const bool told = score.statistic >= limits.gain || (list.empty() && s.remainder);
+    if (list.size() >= kMostMismatches || !told) break;
+    if (listed(list, score.coordinate)) continue;
+    Mismatch m = at_worst(frame, s.baseline, score.equation);
+    m.coordinate = score.coordinate;
+    m.share_of_excess = score.share;
+    m.says = score.says;
+    list.push_back(std::move(m));
+  }
+  return list;
+}
+
+}  // namespace flexspline::studies
