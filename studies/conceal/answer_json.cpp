@@ -104,6 +104,7 @@ ordered_json to_json(const ConcealedAnswer& answer) {
                        {"place", ordered_json::array()},
                        {"disturbances", ordered_json::object()},
                        {"best_rmse_nm", answer.best_rmse},
+                       {"at_output", answer.at_output},
                        {"seed", answer.seed},
                        {"dataset_sha256", answer.dataset_sha256}};
   for (const data::HiddenFinding& effect : answer.effects) {
@@ -140,6 +141,7 @@ Result<ConcealedAnswer> answer_from_json(const ordered_json& json) {
     answer.noise_std = number_or(json, "noise_std_nm", kNotComputed);
     answer.peak_torque = number_or(json, "tau_max", kNotComputed);
     answer.best_rmse = number_or(json, "best_rmse_nm", answer.noise_std);
+    answer.at_output = number_or(json, "at_output", 1.0);
     answer.seed = json.value("seed", answer.seed);
     answer.dataset_sha256 = json.value("dataset_sha256", "");
     return answer;

@@ -72,6 +72,8 @@ ConcealedAnswer answer_of(const ConcealPlan& plan, data::HiddenDataset& made) {
   answer.noise_std = motor_only ? made.answer.motor_noise_std : made.answer.noise_std;
   answer.peak_torque = motor_only ? made.answer.peak_motor_torque : made.answer.peak_torque;
   answer.best_rmse = best_rmse(made);
+  const auto ratio = made.measured.constants.find("gear_ratio");
+  if (motor_only && ratio != made.measured.constants.end()) answer.at_output = ratio->second;
   return answer;
 }
 

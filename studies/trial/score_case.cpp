@@ -100,12 +100,12 @@ void score_location(const ConcealedAnswer& answer, const Diagnosis& diagnosis, C
 }
 
 void score_holdout(const ConcealedAnswer& answer, const HoldoutProof& holdout, CaseScore& score) {
-  score.over_noise = holdout.rmse_after / answer.noise_std;
+  const double best = answer.best_rmse * answer.at_output;
+  score.over_noise = holdout.rmse_after / (answer.noise_std * answer.at_output);
   if (score.kind != CaseKind::single && score.kind != CaseKind::pair) return;
   score.after_over_noise = score.over_noise;
-  score.after_over_best = holdout.rmse_after / answer.best_rmse;
-  score.gain_share =
-      (holdout.rmse_before - holdout.rmse_after) / (holdout.rmse_before - answer.best_rmse);
+  score.after_over_best = holdout.rmse_after / best;
+  score.gain_share = (holdout.rmse_before - holdout.rmse_after) / (holdout.rmse_before - best);
 }
 
 NameScore score_names(const ConcealedAnswer& answer, CaseKind kind, Verdict verdict,

@@ -81,6 +81,7 @@ TEST(Conceal, AnswerReadsBack) {
   EXPECT_EQ(read->effects[0].size_fraction, answer.effects[0].size_fraction);
   EXPECT_EQ(read->noise_std, answer.noise_std);
   EXPECT_EQ(read->best_rmse, answer.best_rmse);
+  EXPECT_EQ(read->at_output, answer.at_output);
   EXPECT_FALSE(answer_from_json(ordered_json::object()).has_value());
 }
 

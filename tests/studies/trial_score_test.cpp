@@ -160,6 +160,12 @@ TEST(ScoreOfAHoldout, IsAgainstNoiseAndAgainstTheBestPossible) {
   EXPECT_NEAR(right.after_over_noise, 1.2, 1e-12);
   EXPECT_NEAR(right.after_over_best, 1.5, 1e-12);
   EXPECT_NEAR(right.gain_share, 0.28 / 0.32, 1e-12);
+  // Noise of a servo's motor, 1/50 of that at the output, where errors are told.
+  ConcealedAnswer servo = kPlay;
+  servo.noise_std /= 50.0, servo.best_rmse /= 50.0, servo.at_output = 50.0;
+  const auto at_motor = score(servo, diagnosis_with(explained, {cause("backlash")}));
+  EXPECT_NEAR(at_motor.after_over_noise, right.after_over_noise, 1e-12);
+  EXPECT_NEAR(at_motor.gain_share, right.gain_share, 1e-12);
   EXPECT_TRUE(std::isnan(score(kNull, diagnosis_with(adequate, {})).after_over_noise));
   EXPECT_TRUE(std::isnan(score(kUnknown, diagnosis_with(unexplained, {})).after_over_noise));
 }

@@ -106,6 +106,7 @@ function answerOf(spec, drive, hidden, peak, rms) {
     place: names.map(() => null),
     disturbances,
     best_rmse_nm: servo ? rms.motorTorque : rms.torque,
+    at_output: servo ? drive.ratio : 1,
     seed: spec.seed,
   };
 }

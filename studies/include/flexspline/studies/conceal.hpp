@@ -108,6 +108,7 @@ struct ConcealedAnswer {
   double noise_std = 0.0;    ///< of the torque that is the rig's effort
   double peak_torque = 0.0;  ///< of the same
   double best_rmse = 0.0;    ///< what the true drive leaves of it: noise as it fell
+  double at_output = 1.0;    ///< of a servo, whose effort is the motor's: its gear ratio, if stated
   std::string dataset_sha256;
 };
 
@@ -116,7 +117,7 @@ std::string key_of(const data::HiddenParameter& parameter);
 
 /// Keys as those of practice cases: rig, effects, size, coordinate, info, noise_std_nm, twins,
 /// tau_max; and generator, source, change, seed, equation, names, place, disturbances,
-/// best_rmse_nm, dataset_sha256.
+/// best_rmse_nm, at_output, dataset_sha256.
 nlohmann::ordered_json to_json(const ConcealedAnswer& answer);
 
 /// What scoring needs of an answer. Errors: bad_data, naming the key.
