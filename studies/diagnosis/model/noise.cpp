@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/frame/middle.hpp"
 #include "diagnosis/frame/repeats.hpp"
@@ -21,6 +22,8 @@ constexpr Index kLags = 40;
 constexpr double kAlike = 0.5;       // autocorrelation
 constexpr Index kFewestRows = 1000;  // of a recording
 constexpr Index kMostLags = 400;
+constexpr double kSettled = 0.02;  // change of a level, of itself
+constexpr int kMostPasses = 10;    // by which a level has settled
 
 // A line across rows that do not count, level at the ends.
 ArrayXd bridged(ArrayXd x) {
@@ -147,6 +150,10 @@ std::vector<double> fast_levels(const Frame& frame, const ArrayXd& residual) {
 
 }  // namespace
 
+bool is_settled(double level, double before) {
+  return std::abs(level - before) <= kSettled * before;
+}
+
 std::vector<double> noise_levels(const Frame& frame, const ArrayXd& residual) {
   std::vector<double> levels = fast_levels(frame, residual);
   std::vector<double> whole;
@@ -223,11 +230,16 @@ ArrayXd weights_of(const Frame& frame, Equation equation, const EquationNoise& n
 
 EquationNoise noise_without(const Frame& frame, const ArrayXd& residual, ArrayXd of_motion,
                             std::vector<double> level) {
+  const int passes = level.empty() ? kMostPasses : 1;
   if (level.empty()) level = noise_levels(frame, residual);
   EquationNoise noise{.level = std::move(level), .of_motion = std::move(of_motion)};
-  const ArrayXd alone = (motion_is_known(frame, noise) > 0.0)
-                            .select(as_noise_alone(frame, noise, residual), kNotComputed);
-  noise.level = noise_levels(frame, alone);
+  ArrayXd alone;
+  for (int pass = 0; pass < passes; ++pass) {
+    alone = (motion_is_known(frame, noise) > 0.0)
+                .select(as_noise_alone(frame, noise, residual), kNotComputed);
+    const auto before = std::exchange(noise.level, noise_levels(frame, alone));
+    if (std::ranges::equal(noise.level, before, is_settled)) break;
+  }
   noise.colour = noise_colour(frame, alone);
   noise.alike = rows_alike(frame, alone);
   return noise;

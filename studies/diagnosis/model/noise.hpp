@@ -39,8 +39,13 @@ Eigen::Index rows_alike(const Frame& frame, const Eigen::ArrayXd& residual);
 /// keep their size. 1000 rows of a recording stay, where it has them.
 Eigen::ArrayXd weights_of_fit(const Frame& frame, const Eigen::ArrayXd& weight, Eigen::Index alike);
 
+/// Whether a level or colour of noise has changed by so little, a fiftieth of itself, that no fit
+/// does.
+bool is_settled(double level, double before);
+
 /// The noise of a residual, measured as it would be if motions had no error, on the rows where
-/// these do no more than noise. level: that known before, by segment; empty: none is.
+/// these do no more than noise. level: that known before, by segment; empty: none is, and the one
+/// that settles is taken.
 EquationNoise noise_without(const Frame& frame, const Eigen::ArrayXd& residual,
                             Eigen::ArrayXd of_motion, std::vector<double> level);
 

@@ -18,7 +18,6 @@ constexpr int kBaselineSteps = 15;
 constexpr int kNoisePasses = 3;         // the noise is measured on a fit that it weights
 constexpr double kSmallestGain = 1e-5;  // of a sum of squares whose noise is not known
 constexpr double kMostGain = 1e-3;      // of a sum of squares, however much the noise is coloured
-constexpr double kSettled = 0.02;       // change of a noise level, of itself
 
 bool touches(const ActiveCause& cause, const std::vector<Equation>& equations) {
   return std::ranges::any_of(cause.form->at,
@@ -117,12 +116,11 @@ void take_noise(const Frame& frame, Noise noise, Findings& findings) {
 }
 
 // Weights that hardly change do not change the fit.
-bool is_settled(const Frame& frame, const Noise& now, const Noise& before) {
-  const auto same = [](double a, double b) { return std::abs(a - b) <= kSettled * b; };
+bool are_settled(const Frame& frame, const Noise& now, const Noise& before) {
   return std::ranges::all_of(frame.equations, [&](Equation equation) {
     const std::size_t e = index_of(equation);
-    return now[e].alike == before[e].alike && same(now[e].colour, before[e].colour) &&
-           std::ranges::equal(now[e].level, before[e].level, same);
+    return now[e].alike == before[e].alike && is_settled(now[e].colour, before[e].colour) &&
+           std::ranges::equal(now[e].level, before[e].level, is_settled);
   });
 }
 
@@ -187,7 +185,7 @@ double excess(const Frame& frame, const Findings& findings, const ModelFit& fit)
 Result<void> refresh(const Frame& frame, Findings& findings, int steps) {
   for (int pass = 0; pass < kNoisePasses; ++pass) {
     Noise noise = measured_noise(frame, findings);
-    if (pass > 0 && is_settled(frame, noise, findings.noise)) return {};
+    if (pass > 0 && are_settled(frame, noise, findings.noise)) return {};
     take_noise(frame, std::move(noise), findings);
     const auto fitted = fit_all(frame, findings, steps);
     if (!fitted) return fitted;
