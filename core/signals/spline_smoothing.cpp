@@ -9,6 +9,7 @@
 
 #include <Eigen/Sparse>
 
+#include "flexspline/core/counts.hpp"
 #include "flexspline/core/cubic_basis.hpp"
 #include "signals/smoothing.hpp"
 
@@ -107,8 +108,9 @@ Equations::Equations(std::span<const double> time, const CubicBasis& splines,
 }
 
 // Generalised cross-validation of one penalty; the trace by random signs (Hutchinson). Keeps it for
-// the signals whose best it is.
-void try_penalty(Equations& equations, double penalty, double cost, std::vector<Penalised>& best) {
+// the signals whose best it is, or whose counts leave more than it does. Penalties rise.
+void try_penalty(Equations& equations, double penalty, double cost,
+                 std::span<const double> of_counts, std::vector<Penalised>& best) {
   equations.solver.factorize(equations.normal + penalty * equations.roughness);
   const Eigen::MatrixXd solved = equations.solver.solve(equations.right);
   const double freedom =
@@ -120,8 +122,10 @@ void try_penalty(Equations& equations, double penalty, double cost, std::vector<
     const auto column = static_cast<Eigen::Index>(s);
     const Eigen::VectorXd coefficients = solved.col(column);
     const Eigen::VectorXd rest = equations.samples.col(column) - equations.basis * coefficients;
-    const double score = rest.squaredNorm() * n / (left * left);
-    if (score < best[s].score) best[s] = {coefficients, score, freedom, penalty};
+    const double square = rest.squaredNorm();
+    const double score = square * n / (left * left);
+    const bool follows_counts = square <= of_counts[s] * of_counts[s] * (n - freedom);
+    if (score < best[s].score || follows_counts) best[s] = {coefficients, score, freedom, penalty};
   }
 }
 
@@ -209,7 +213,7 @@ void tell_errors(Equations& equations, const std::vector<Penalised>& fits, const
   const auto odd = smooth_half(time, signals, fits, intervals, 1);
   for (std::size_t s = 0; s < fits.size(); ++s) {
     std::vector<Penalised> rougher(fits.size());
-    try_penalty(equations, fits[s].penalty / 9.0, 0.0, rougher);
+    try_penalty(equations, fits[s].penalty / 9.0, 0.0, std::vector(fits.size(), 0.0), rougher);
     const SmoothSignal rough = signal_of(rougher[s], basis, time, signals[s]);
     const auto running = [&](const std::vector<double>& a, const std::vector<double>& b) {
       std::vector<double> change;
@@ -266,9 +270,11 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
       std::clamp<std::size_t>(time.size() / knots.samples_per_interval, 4, knots.most_intervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
   Equations equations(time, basis, signals);
+  std::vector<double> of_counts;
+  for (const auto& signal : signals) of_counts.push_back(deviation_of_counts(signal));
   std::vector<Penalised> best(signals.size());
   for (double exponent = -6.0; exponent <= 10.0; exponent += 0.5) {
-    try_penalty(equations, std::pow(10.0, exponent), knots.cost, best);
+    try_penalty(equations, std::pow(10.0, exponent), knots.cost, of_counts, best);
   }
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < signals.size(); ++s) {

@@ -70,7 +70,8 @@ TEST(Counted, AReversalIsNotTold) {
 // A smoothing that takes nothing away keeps what is as fast as every other sample, and no faster.
 TEST(Counted, NoSmoothingIsTwoSamples) {
   std::vector<double> time, angle;
-  for (int i = 0; i < 500; ++i) time.push_back(kInterval * i), angle.push_back(kLevel * i);
+  for (int i = 0; i < 500; ++i)
+    time.push_back(kInterval * i), angle.push_back(kLevel * (i + i / 100));
   const auto tells = counted(time, angle, std::numeric_limits<double>::infinity());
   EXPECT_EQ(std::ranges::count(tells, 1.0), 498) << "all but the ends";
 }

@@ -32,15 +32,8 @@ std::vector<Shape> long_delay(const Frame& f) {
 
 std::vector<double> small(const Frame& f) { return {0.01 / f.fastest()}; }
 
-// A torque that is late shows the motion of d ago.
+// A torque that is late shows the motion of d ago, which may be long against a reversal.
 void motion_of_then(Frame& f, Values shape) {
-  const double d = shape[0];
-  f.torsion += -d * f.torsion_rate + 0.5 * d * d * f.torsion_acceleration;
-  f.torsion_rate -= d * f.torsion_acceleration;
-}
-
-// The same of an angle that travels, where a delay may be long against a reversal.
-void travel_of_then(Frame& f, Values shape) {
   for (ArrayXd* motion : {&f.torsion, &f.torsion_rate, &f.torsion_acceleration, &f.motor_angle,
                           &f.motor_speed, &f.load_angle}) {
     *motion = later(f, *motion, -shape[0]);
@@ -62,7 +55,7 @@ std::vector<Shape> delay_and_lag(const Frame& f) {
 std::vector<double> small_both(const Frame& f) { return {0.01 / f.fastest(), 0.1 / f.fastest()}; }
 
 void behind_a_filter(Frame& f, Values shape) {
-  travel_of_then(f, shape);
+  motion_of_then(f, shape);
   f.torque_lag += shape[1];
 }
 
@@ -72,7 +65,8 @@ void behind_a_filter(Frame& f, Values shape) {
 void drive_of_then(Frame& f, Values shape) {
   const double d = shape[0];
   f.motor_torque -= (later(f, f.told_torque, d) - f.told_torque) / f.ratio;
-  motion_of_then(f, shape);
+  f.torsion += -d * f.torsion_rate + 0.5 * d * d * f.torsion_acceleration;
+  f.torsion_rate -= d * f.torsion_acceleration;
   f.load_speed -= d * f.load_acceleration;
   f.load_acceleration = later(f, f.load_acceleration, -d);
 }
@@ -99,18 +93,9 @@ CauseRow describe_sensor_delay() {
           .forms = {{.equation = "tau_measured(t) = tau(t - d)",
                      .rigs = {Rig::specimen},
                      .at = {Equation::torsion},
-                     .shapes = delay,
+                     .shapes = long_delay,
                      .transform = motion_of_then,
                      .start = small,
-                     .where = wound_up,
-                     .counterpart = torque_late},
-                    {.equation = "tau_measured(t) = tau(t - d)",
-                     .rigs = {Rig::specimen},
-                     .at = {Equation::torsion},
-                     .shapes = long_delay,
-                     .transform = travel_of_then,
-                     .start = small,
-                     .where = travels,
                      .counterpart = torque_late},
                     {.equation = "T tau_measured' + tau_measured = tau(t - d)",
                      .rigs = {Rig::specimen},

@@ -4,27 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "flexspline/core/counts.hpp"
+
 namespace flexspline::studies {
-namespace {
-
-// Least distance of two values that follow each other: of an encoder that moves slowly its step.
-double level_of(std::span<const double> angle) {
-  const auto [low, high] = std::ranges::minmax(angle);
-  const double rounding = 1e-9 * (high - low);
-  double least = high - low;
-  for (std::size_t i = 1; i < angle.size(); ++i) {
-    const double step = std::abs(angle[i] - angle[i - 1]);
-    if (step > rounding) least = std::min(least, step);
-  }
-  return least;
-}
-
-}  // namespace
-
 std::vector<double> counted(std::span<const double> time, std::span<const double> angle,
                             double bandwidth) {
   const double half = std::numbers::pi / bandwidth;
-  const double two_levels = 1.99 * level_of(angle);  // but for rounding
+  const double two_levels = 1.99 * level_of_counts(angle);  // but for rounding
   std::vector<double> tells(angle.size());
   std::size_t first = 0;
   std::size_t last = 0;

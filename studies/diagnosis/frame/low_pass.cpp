@@ -72,4 +72,15 @@ void LowPass::apply(Eigen::Ref<Eigen::MatrixXd> columns) const {
   }
 }
 
+Eigen::ArrayXd LowPass::undone(const Eigen::ArrayXd& y) const {
+  Eigen::ArrayXd x(y.size());
+  for (const Segment& s : segments_) {
+    x[s.first] = y[s.first];
+    for (Index r = s.first + 1; r < s.first + s.count; ++r) {
+      x[r] = (y[r] - before_[r] * x[r - 1] - kept_[r] * y[r - 1]) / now_[r];
+    }
+  }
+  return x;
+}
+
 }  // namespace flexspline::studies

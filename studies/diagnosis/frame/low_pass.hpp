@@ -17,6 +17,10 @@ class LowPass {
   /// Filters every column in its place.
   void apply(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
+  /// What the filter makes the given of, row by row: apply() gives it back. Stable:
+  /// |b| < a.
+  Eigen::ArrayXd undone(const Eigen::ArrayXd& y) const;
+
  private:
   template <std::size_t count>
   void apply_to(double* first_column, Eigen::Index stride) const;

@@ -67,6 +67,7 @@ std::vector<Term> elements(const std::vector<double>& grid, const Term& each) {
 }
 
 ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
+  const ArrayXd slope = rate_of(frame, signal);
   ArrayXd shifted(frame.rows());
   for (const Segment& s : frame.segments) {
     const Index last = s.first + s.count - 1;
@@ -75,9 +76,13 @@ ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
       const double t = frame.time[r] + delay;
       while (k + 1 < last && frame.time[k + 1] < t) ++k;
       while (k > s.first && frame.time[k] > t) --k;
-      const double share =
-          std::clamp((t - frame.time[k]) / (frame.time[k + 1] - frame.time[k]), 0.0, 1.0);
-      shifted[r] = signal[k] + share * (signal[k + 1] - signal[k]);
+      const double interval = frame.time[k + 1] - frame.time[k];
+      const double u = std::clamp((t - frame.time[k]) / interval, 0.0, 1.0);
+      const double rise = signal[k + 1] - signal[k];
+      shifted[r] =
+          signal[k] + u * rise +
+          u * (1.0 - u) *
+              ((1.0 - u) * (interval * slope[k] - rise) - u * (interval * slope[k + 1] - rise));
     }
   }
   return shifted;

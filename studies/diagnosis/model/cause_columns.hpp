@@ -37,7 +37,8 @@ std::vector<double> geometric(double first, double last, int count);
 /// The terms of elements along a grid: name_1 at the first value, and so on.
 std::vector<Term> elements(const std::vector<double>& grid, const Term& each);
 
-/// A smooth signal a delay later, in every recording: linear between rows, held beyond the ends.
+/// A smooth signal a delay later, in every recording: cubic between rows, by the slopes of their
+/// neighbours; held beyond the ends.
 Eigen::ArrayXd later(const Frame& frame, const Eigen::ArrayXd& signal, double delay);
 
 /// Time derivative of a signal along every recording, central differences of rows; 0 at its ends.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "diagnosis/frame/low_pass.hpp"
 #include "diagnosis/model/cause_columns.hpp"
 #include "diagnosis/model/model.hpp"
 
@@ -23,18 +24,20 @@ std::vector<Shape> time_constant(const Frame& f) {
 
 std::vector<double> short_one(const Frame& f) { return {0.1 / f.fastest()}; }
 
-// A motion before its filter, x + T x'.
-void undo(const Frame& f, double T, ArrayXd& angle, ArrayXd& rate, ArrayXd& acceleration) {
+// A motion before its filter, x + T x'. Of the acceleration, whose rate is not known, by the rows:
+// between those that are thinned it may turn, and the filter gives back what it is undone by.
+void undo(const LowPass& filter, double T, ArrayXd& angle, ArrayXd& rate, ArrayXd& acceleration) {
   angle += T * rate;
   rate += T * acceleration;
-  acceleration = later(f, acceleration, T);
+  acceleration = filter.undone(acceleration);
 }
 
 // The motion before its filter and the torque that it asks for, behind the same.
 void before_the_filter(Frame& f, Values shape) {
-  undo(f, shape[0], f.motor_angle, f.motor_speed, f.motor_acceleration);
-  undo(f, shape[0], f.load_angle, f.load_speed, f.load_acceleration);
-  undo(f, shape[0], f.torsion, f.torsion_rate, f.torsion_acceleration);
+  const auto filter = shared_low_pass(f, shape[0]);
+  undo(*filter, shape[0], f.motor_angle, f.motor_speed, f.motor_acceleration);
+  undo(*filter, shape[0], f.load_angle, f.load_speed, f.load_acceleration);
+  undo(*filter, shape[0], f.torsion, f.torsion_rate, f.torsion_acceleration);
   if (f.rig == Rig::servo) f.hang_pendulum();
   f.torque_lag = shape[0];
 }

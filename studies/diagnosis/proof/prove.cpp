@@ -154,6 +154,8 @@ HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const Caus
   return misfit;
 }
 
+// Of two that take each other back either is missed beside the other, and both are not: no cause
+// helps by more than all of them do.
 void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
                   Proof& proof) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
@@ -161,8 +163,9 @@ void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, c
     const auto of = [&](const PerEquation& residual) {
       return misfit_of(frame, s.final, form, residual, held);
     };
-    const double with = of(pool.final).chi_square, without = of(pool.without[i]).chi_square;
     const double base = of(pool.base).chi_square, instead = of(pool.placebo).chi_square;
+    const double with = of(pool.final).chi_square;
+    const double without = std::min(of(pool.without[i]).chi_square, base);
     CauseProof cause{.name = {.ratio = std::sqrt(with / without)},
                      .placebo_ratio = instead > 0.0 ? std::sqrt(instead / base) : kNotComputed,
                      .gain = without - with};

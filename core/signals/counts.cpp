@@ -1,0 +1,79 @@
+#include "flexspline/core/counts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace flexspline {
+namespace {
+
+constexpr double kLeast = 1e-6;     // of the range: what is finer are no counts, but digits
+constexpr double kRounding = 0.02;  // of a level: counts are printed with few digits
+
+std::vector<double> steps_of(std::span<const double> samples) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    steps.push_back(std::abs(samples[i] - samples[i - 1]));
+  }
+  std::ranges::sort(steps);
+  return steps;
+}
+
+// The greatest of which both are whole numbers, but for rounding (Euclid); of many levels it is
+// known better.
+double common_part(double many, double few) {
+  const double times = std::round(many / few);
+  const double rest = std::abs(many - times * few);
+  return rest > kRounding * few ? common_part(few, rest) : many / times;
+}
+
+/// Samples of one value that follow each other.
+struct Run {
+  double value = 0.0;
+  std::size_t length = 0;
+};
+
+std::vector<Run> runs_of(std::span<const double> samples, double level) {
+  std::vector<Run> runs;
+  for (const double x : samples) {
+    if (runs.empty() || std::abs(x - runs.back().value) > 0.5 * level) runs.push_back({x, 0});
+    ++runs.back().length;
+  }
+  return runs;
+}
+
+bool is_passed(const Run& before, const Run& run, const Run& after) {
+  return (run.value - before.value) * (after.value - run.value) > 0.0 &&
+         run.length <= 2 * std::min(before.length, after.length);
+}
+
+}  // namespace
+
+double level_of_counts(std::span<const double> samples) {
+  const std::vector<double> steps = steps_of(samples);
+  const auto [low, high] = std::ranges::minmax(samples);
+  const double least = kLeast * (high - low);
+  const auto first = std::ranges::upper_bound(steps, kRounding * least);
+  if (first == steps.end()) return 0.0;
+  double level = *first;
+  for (auto step = first; step != steps.end() && level > least; ++step) {
+    level = common_part(*step, level);
+  }
+  const bool alike = first == steps.begin() && steps.back() < 1.5 * level;
+  return alike || level <= least ? 0.0 : level;
+}
+
+double deviation_of_counts(std::span<const double> samples) {
+  const double level = level_of_counts(samples);
+  if (!(level > 0.0)) return 0.0;
+  const std::vector<Run> runs = runs_of(samples, level);
+  std::size_t passing = 0;
+  for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
+    if (is_passed(runs[i - 1], runs[i], runs[i + 1])) passing += runs[i].length;
+  }
+  const double share = static_cast<double>(passing) / static_cast<double>(samples.size());
+  return level * std::sqrt(share / 12.0);
+}
+
+}  // namespace flexspline
