@@ -192,8 +192,8 @@ TEST(Forms, LateTorqueOfAJointThatTravelsIsTheMotionOfThen) {
   for (const Segment& s : f.segments) {
     const auto part = Eigen::seqN(s.first + inside, s.count - inside);
     const ArrayXd then = f.time(part) - delay;
-    // Linear between rows: h^2/8.
-    const double error = f.interval * f.interval / 8.0 * 1.01;
+    // Cubic between rows, by a secant at the ends: h^2/2 u (1 - u)^2.
+    const double error = f.interval * f.interval * 2.0 / 27.0 * 1.01;
     EXPECT_LT((late.torsion(part) - then.sin()).abs().maxCoeff(), error);
     EXPECT_LT((late.torsion_rate(part) - then.cos()).abs().maxCoeff(), error);
     EXPECT_LT((late.torsion_acceleration(part) + then.sin()).abs().maxCoeff(), error);

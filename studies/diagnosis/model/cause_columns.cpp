@@ -66,10 +66,29 @@ std::vector<Term> elements(const std::vector<double>& grid, const Term& each) {
   return terms;
 }
 
-ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
-  const ArrayXd slope = rate_of(frame, signal);
-  ArrayXd shifted(frame.rows());
+namespace {
+
+// Of a cubic between rows: central differences, and of the first and last row the secant.
+ArrayXd slopes_of(const Frame& frame, const ArrayXd& signal) {
+  ArrayXd slope = rate_of(frame, signal);
+  const auto secant = [&](Index r) {
+    return (signal[r + 1] - signal[r]) / (frame.time[r + 1] - frame.time[r]);
+  };
   for (const Segment& s : frame.segments) {
+    if (s.count < 2) continue;
+    slope[s.first] = secant(s.first);
+    slope[s.first + s.count - 1] = secant(s.first + s.count - 2);
+  }
+  return slope;
+}
+
+}  // namespace
+
+ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
+  const ArrayXd slope = slopes_of(frame, signal);
+  ArrayXd shifted = signal;
+  for (const Segment& s : frame.segments) {
+    if (s.count < 2) continue;
     const Index last = s.first + s.count - 1;
     Index k = s.first;
     for (Index r = s.first; r <= last; ++r) {
@@ -79,10 +98,9 @@ ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
       const double interval = frame.time[k + 1] - frame.time[k];
       const double u = std::clamp((t - frame.time[k]) / interval, 0.0, 1.0);
       const double rise = signal[k + 1] - signal[k];
-      shifted[r] =
-          signal[k] + u * rise +
-          u * (1.0 - u) *
-              ((1.0 - u) * (interval * slope[k] - rise) - u * (interval * slope[k + 1] - rise));
+      const double bend =
+          (1.0 - u) * (interval * slope[k] - rise) - u * (interval * slope[k + 1] - rise);
+      shifted[r] = (1.0 - u) * signal[k] + u * signal[k + 1] + u * (1.0 - u) * bend;
     }
   }
   return shifted;
