@@ -65,6 +65,45 @@ std::string_view why_not(const CauseProof& cause) {
                           : "it does not lower the error on recordings held out";
 }
 
+/// Causes that were not confirmed, in the order in which they went.
+class Doubted {
+ public:
+  void add(Accepted cause) { gone_.push_back(std::move(cause)); }
+
+  /// The one that gains most beside those that stayed, and what the model is with it. Each is asked
+  /// for once, and the last to go not at all: nothing has changed since.
+  std::optional<std::pair<Accepted, ModelFit>> best_again(const Frame& frame, const Limits& limits,
+                                                          const Findings& final) {
+    std::optional<std::pair<Accepted, ModelFit>> best;
+    double least = chi_square(frame, final, final.fit) - limits.gain;
+    for (std::size_t i = 0; i + 1 < gone_.size(); ++i) {
+      const CauseRow* row = gone_[i].trial.cause.row;
+      if (std::ranges::count(asked_, row) > 0) continue;
+      auto fit = extended(frame, final, gone_[i].trial.cause, kFinalSteps);
+      if (!fit) continue;
+      const double chi = chi_square(frame, final, *fit);
+      if (chi > least) continue;
+      least = chi;
+      best = {gone_[i], std::move(*fit)};
+    }
+    if (best) asked_.push_back(best->first.trial.cause.row);
+    return best;
+  }
+
+ private:
+  std::vector<Accepted> gone_;
+  std::vector<const CauseRow*> asked_;
+};
+
+void take_again(Selection& s, Accepted cause, ModelFit fit) {
+  std::erase_if(s.withdrawn, [&](const Accepted& a) {
+    return a.trial.cause.row == cause.trial.cause.row;
+  });
+  cause.withdrawn_because = {};
+  s.final.fit = std::move(fit);
+  s.accepted.push_back(std::move(cause));
+}
+
 }  // namespace
 
 std::vector<std::string> alternatives_of(const Accepted& accepted, const Selection& s) {
@@ -78,14 +117,20 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
 }
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {
+  Doubted doubted;
   while (true) {
     const auto told = leave_out_taken_back(frame, limits, s);
     if (!told) return tl::unexpected(told.error());
     auto proof = prove(frame, s, limits.threads);
     if (!proof) return proof;
     if (const auto doubtful = unconfirmed(*proof, limits)) {
+      doubted.add(s.accepted[*doubtful]);
       const auto left_out = leave_out(frame, s, *doubtful, why_not(proof->causes[*doubtful]));
       if (!left_out) return tl::unexpected(left_out.error());
+      continue;
+    }
+    if (auto again = doubted.best_again(frame, limits, s.final)) {
+      take_again(s, std::move(again->first), std::move(again->second));
       continue;
     }
     complete(frame, s, *proof);
