@@ -96,9 +96,8 @@ class Doubted {
 };
 
 void take_again(Selection& s, Accepted cause, ModelFit fit) {
-  std::erase_if(s.withdrawn, [&](const Accepted& a) {
-    return a.trial.cause.row == cause.trial.cause.row;
-  });
+  std::erase_if(s.withdrawn,
+                [&](const Accepted& a) { return a.trial.cause.row == cause.trial.cause.row; });
   cause.withdrawn_because = {};
   s.final.fit = std::move(fit);
   s.accepted.push_back(std::move(cause));

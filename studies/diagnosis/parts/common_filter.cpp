@@ -24,20 +24,26 @@ std::vector<Shape> time_constant(const Frame& f) {
 
 std::vector<double> short_one(const Frame& f) { return {0.1 / f.fastest()}; }
 
-// A motion before its filter, x + T x'. Of the acceleration, whose rate is not known, by the rows:
-// between those that are thinned it may turn, and the filter gives back what it is undone by.
-void undo(const LowPass& filter, double T, ArrayXd& angle, ArrayXd& rate, ArrayXd& acceleration) {
+// Of a servo all torque goes with it: by the rows, so that the filter gives it back; between rows
+// that are thinned it may turn. Of a specimen, whose rows nothing weighs by what it is known to, by
+// its value T later, which the filter makes smaller by sqrt(1 + w^2 T^2), and its noise with it.
+ArrayXd acceleration_before(const Frame& f, double T, const ArrayXd& acceleration) {
+  if (f.rig == Rig::servo) return shared_low_pass(f, T)->undone(acceleration);
+  return later(f, acceleration, T);
+}
+
+// A motion before its filter, x + T x'.
+void undo(const Frame& f, double T, ArrayXd& angle, ArrayXd& rate, ArrayXd& acceleration) {
   angle += T * rate;
   rate += T * acceleration;
-  acceleration = filter.undone(acceleration);
+  acceleration = acceleration_before(f, T, acceleration);
 }
 
 // The motion before its filter and the torque that it asks for, behind the same.
 void before_the_filter(Frame& f, Values shape) {
-  const auto filter = shared_low_pass(f, shape[0]);
-  undo(*filter, shape[0], f.motor_angle, f.motor_speed, f.motor_acceleration);
-  undo(*filter, shape[0], f.load_angle, f.load_speed, f.load_acceleration);
-  undo(*filter, shape[0], f.torsion, f.torsion_rate, f.torsion_acceleration);
+  undo(f, shape[0], f.motor_angle, f.motor_speed, f.motor_acceleration);
+  undo(f, shape[0], f.load_angle, f.load_speed, f.load_acceleration);
+  undo(f, shape[0], f.torsion, f.torsion_rate, f.torsion_acceleration);
   if (f.rig == Rig::servo) f.hang_pendulum();
   f.torque_lag = shape[0];
 }
