@@ -33,7 +33,8 @@ Result<void> check_samples(std::span<const double> time,
 
 /// Penalised cubic spline (Eilers and Marx 1996, third differences), the penalty by generalised
 /// cross-validation with a stochastic trace. Even: a knot for three samples, 3000 at most. Fine:
-/// one for each, 20 000 at most, and a degree of freedom costs 1.1. Errors: those of check_samples.
+/// one for each, 20 000 at most, and a degree of freedom costs 1.1. Of an encoder's counts no less
+/// is left than counting does (deviation_of_counts). Errors: those of check_samples.
 Result<SmoothSignal> smooth_by_spline(std::span<const double> time, std::span<const double> samples,
                                       Resolution resolution = Resolution::even);
 
