@@ -10,6 +10,25 @@ namespace {
 
 constexpr double kLeast = 1e-6;     // of the range: what is finer are no counts, but digits
 constexpr double kRounding = 0.02;  // of a level: counts are printed with few digits
+// Different values that last, all of which lie by chance within kRounding of a level in one of
+// 1e10.
+constexpr std::size_t kHeld = 8;
+
+// Samples that last: of counts resampled on a grid those that are no mixture of two.
+std::vector<double> held(std::span<const double> samples) {
+  std::vector<double> values;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i] != samples[i - 1]) continue;
+    if (values.empty() || values.back() != samples[i]) values.push_back(samples[i]);
+  }
+  return values;
+}
+
+std::size_t different(std::vector<double> values) {
+  std::ranges::sort(values);
+  const auto same = std::ranges::unique(values);
+  return values.size() - same.size();
+}
 
 std::vector<double> steps_of(std::span<const double> samples) {
   std::vector<double> steps;
@@ -48,9 +67,8 @@ bool is_passed(const Run& before, const Run& run, const Run& after) {
          run.length <= 2 * std::min(before.length, after.length);
 }
 
-}  // namespace
-
-double level_of_counts(std::span<const double> samples) {
+// The level of which all distances of two samples that follow each other are a whole number.
+double common_level(std::span<const double> samples) {
   const std::vector<double> steps = steps_of(samples);
   const auto [low, high] = std::ranges::minmax(samples);
   const double least = kLeast * (high - low);
@@ -62,6 +80,16 @@ double level_of_counts(std::span<const double> samples) {
   }
   const bool alike = first == steps.begin() && steps.back() < 1.5 * level;
   return alike || level <= least ? 0.0 : level;
+}
+
+}  // namespace
+
+double level_of_counts(std::span<const double> samples) {
+  if (samples.empty()) return 0.0;
+  const double level = common_level(samples);
+  if (level > 0.0) return level;
+  const std::vector<double> values = held(samples);
+  return different(values) < kHeld ? 0.0 : common_level(values);
 }
 
 double deviation_of_counts(std::span<const double> samples) {

@@ -10,6 +10,13 @@
 
 namespace flexspline {
 
+/// A second derivative that is smoothed further: noise grows with the fifth power of a bandwidth
+/// in its variance, with the first in that of the value.
+struct NarrowerSecond {
+  std::vector<double> second, error;  ///< and its standard deviation, by sample
+  double bandwidth = 0.0;             ///< rad/s
+};
+
 /// A smooth signal and its first two derivatives at the instants of its samples.
 struct SmoothSignal {
   std::vector<double> value;
@@ -24,6 +31,7 @@ struct SmoothSignal {
   /// difference between odd and even samples, rms within 1/bandwidth; of a spline. Of white noise
   /// that of second is 1.76 times its own.
   std::vector<double> value_error{}, rate_error{}, second_error{};
+  std::vector<NarrowerSecond> narrower{};  ///< as many as were asked for
 };
 
 /// Whether signals can be smoothed: 16 samples or more over a time that increases, and squares that
@@ -34,14 +42,17 @@ Result<void> check_samples(std::span<const double> time,
 /// Penalised cubic spline (Eilers and Marx 1996, third differences), the penalty by generalised
 /// cross-validation with a stochastic trace. Even: a knot for three samples, 3000 at most. Fine:
 /// one for each, 20 000 at most, and a degree of freedom costs 1.1. Of an encoder's counts no less
-/// is left than counting does (deviation_of_counts). Errors: those of check_samples.
+/// is left than counting does (deviation_of_counts). narrower: by what the bandwidths of further
+/// second derivatives are divided, so that their penalties are times its sixth power. Errors: those
+/// of check_samples.
 Result<SmoothSignal> smooth_by_spline(std::span<const double> time, std::span<const double> samples,
-                                      Resolution resolution = Resolution::even);
+                                      Resolution resolution = Resolution::even,
+                                      std::span<const double> narrower = {});
 
 /// The same of several signals sampled at the same instants, whose equations are shared.
 Result<std::vector<SmoothSignal>> smooth_by_splines(
     std::span<const double> time, std::span<const std::span<const double>> signals,
-    Resolution resolution = Resolution::even);
+    Resolution resolution = Resolution::even, std::span<const double> narrower = {});
 
 /// Which harmonics a smooth signal keeps.
 enum class Harmonics {

@@ -157,6 +157,16 @@ double bandwidth_of(double penalty, double samples_per_interval, double interval
   return std::min(half, std::numbers::pi) / interval;
 }
 
+SmoothSignal smoothed_by(const Penalised& fit, const CubicBasis& basis,
+                         std::span<const double> time, std::span<const double> samples,
+                         std::size_t intervals) {
+  SmoothSignal smooth = signal_of(fit, basis, time, samples);
+  const auto count = static_cast<double>(intervals);
+  smooth.bandwidth = bandwidth_of(fit.penalty, static_cast<double>(time.size()) / count,
+                                  (time.back() - time.front()) / count);
+  return smooth;
+}
+
 // Root mean square over the samples within a span of time about each.
 std::vector<double> running_rms(std::span<const double> time, const std::vector<double>& x,
                                 double span) {
@@ -233,6 +243,23 @@ void tell_errors(Equations& equations, const std::vector<Penalised>& fits, const
   }
 }
 
+// Behind bandwidths that are so many times narrower.
+std::vector<SmoothSignal> narrowed(double times, Equations& equations, std::vector<Penalised> fits,
+                                   const CubicBasis& basis, std::span<const double> time,
+                                   std::span<const std::span<const double>> signals,
+                                   std::size_t intervals) {
+  const std::vector<double> no_counts(fits.size(), 0.0);
+  std::vector<SmoothSignal> smooth;
+  for (std::size_t s = 0; s < fits.size(); ++s) {
+    std::vector<Penalised> all(fits.size());
+    try_penalty(equations, std::pow(times, 6.0) * fits[s].penalty, 0.0, no_counts, all);
+    fits[s] = all[s];
+    smooth.push_back(smoothed_by(fits[s], basis, time, signals[s], intervals));
+  }
+  tell_errors(equations, fits, basis, time, signals, intervals, smooth);
+  return smooth;
+}
+
 bool has_finite_squares(std::span<const double> samples) {
   double sum = 0.0;
   for (const double x : samples) sum += x * x;
@@ -263,7 +290,7 @@ Result<void> check_samples(std::span<const double> time,
 
 Result<std::vector<SmoothSignal>> smooth_by_splines(
     std::span<const double> time, std::span<const std::span<const double>> signals,
-    Resolution resolution) {
+    Resolution resolution, std::span<const double> narrower) {
   if (auto sound = check_samples(time, signals); !sound) return tl::unexpected(sound.error());
   const Knots knots = knots_of(resolution);
   const std::size_t intervals =
@@ -282,18 +309,22 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
       return failure(ErrorCode::numerics, "no smooth curve through the samples can be computed",
                      "check the values and the unit of the channel");
     }
-    smooth.push_back(signal_of(best[s], basis, time, signals[s]));
-    smooth.back().bandwidth = bandwidth_of(
-        best[s].penalty, static_cast<double>(time.size()) / static_cast<double>(intervals),
-        (time.back() - time.front()) / static_cast<double>(intervals));
+    smooth.push_back(smoothed_by(best[s], basis, time, signals[s], intervals));
   }
   tell_errors(equations, best, basis, time, signals, intervals, smooth);
+  for (const double times : narrower) {
+    auto further = narrowed(times, equations, best, basis, time, signals, intervals);
+    for (std::size_t s = 0; s < signals.size(); ++s) {
+      smooth[s].narrower.push_back(
+          {std::move(further[s].second), std::move(further[s].second_error), further[s].bandwidth});
+    }
+  }
   return smooth;
 }
 
 Result<SmoothSignal> smooth_by_spline(std::span<const double> time, std::span<const double> samples,
-                                      Resolution resolution) {
-  auto smooth = smooth_by_splines(time, std::span(&samples, 1), resolution);
+                                      Resolution resolution, std::span<const double> narrower) {
+  auto smooth = smooth_by_splines(time, std::span(&samples, 1), resolution, narrower);
   if (!smooth) return tl::unexpected(smooth.error());
   return std::move(smooth->front());
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/names/part_of_progress.hpp"
 #include "diagnosis/next/experiment.hpp"
 #include "diagnosis/search/explanation.hpp"
 
@@ -9,14 +10,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr Eigen::Index kMostRows = 16000;
-
-// Of a whole: what is done after another part of it.
-DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
-  if (!progress) return {};
-  return [progress, from, to](double share, std::string_view stage) {
-    progress(from + share * (to - from), stage);
-  };
-}
 
 // Motions, rates and torques of the recordings that may be searched.
 Result<Frame> searched_frame(const RecordingSet& all, const std::vector<std::string>& holdout) {

@@ -30,8 +30,10 @@ std::string_view name_of(Equation equation) {
 }
 
 ArrayXd Frame::rows_of(Equation equation) const {
-  if (equation != Equation::motor || motor_slides.size() == 0) return usable;
-  return usable * motor_slides;
+  ArrayXd rows = usable;
+  if (equation != Equation::torsion && accelerations_held.size() > 0) rows *= accelerations_held;
+  if (equation == Equation::motor && motor_slides.size() > 0) rows *= motor_slides;
+  return rows;
 }
 
 ArrayXd Frame::judged_part(Equation equation, const ArrayXd& signal) const {

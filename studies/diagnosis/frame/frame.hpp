@@ -30,6 +30,7 @@ struct Segment {
   Eigen::Index count = 0;
   Split split = Split::unassigned;
   Repeat repeat = {};
+  std::size_t bandwidth = 0;  ///< of its accelerations: which of Frame::accelerations
 };
 
 /// A stretch of one recording that has something of its own, and is left out.
@@ -42,6 +43,8 @@ struct Incident {
 };
 
 class KeptBaselines;
+
+struct Accelerations;
 
 /// All recordings of a set on one list of rows, motions smoothed. SI; motor quantities at the motor
 /// shaft, others at the output. A channel that the rig does not have is zero; on a specimen the
@@ -68,12 +71,14 @@ struct Frame {
   Eigen::ArrayXd time;   ///< of the recording
   Eigen::ArrayXd clock;  ///< shared by the set, from 0
   Eigen::ArrayXd motor_angle, motor_speed, motor_acceleration;
-  Eigen::ArrayXd motor_bandwidth;  ///< DriveChannels::motor_bandwidth; empty: nothing is smoothed
+  Eigen::ArrayXd motor_bandwidth;  ///< of its acceleration, rad/s; empty: nothing is smoothed
   Eigen::ArrayXd load_angle, load_speed, load_acceleration;
   Eigen::ArrayXd torsion, torsion_rate, torsion_acceleration;
   /// Standard deviations by row; empty: not known. On a locked rig the two are one.
   Eigen::ArrayXd motor_speed_error, torsion_error, torsion_rate_error;
   Eigen::ArrayXd motor_acceleration_error, load_acceleration_error;
+  /// Those above behind the bandwidth of their motion, then behind narrower ones; null: only those.
+  std::shared_ptr<const std::vector<Accelerations>> accelerations;
   Eigen::ArrayXd torque;                      ///< measured, across the transmission
   Eigen::ArrayXd smooth_torque, torque_rate;  ///< the same, smoothed
   Eigen::ArrayXd told_torque;                 ///< as the torsion tells it: told_torque(); of drives
@@ -82,7 +87,8 @@ struct Frame {
   Eigen::ArrayXd motor_torque;                ///< recorded, at the motor shaft
   Eigen::ArrayXd smooth_motor_torque, motor_torque_rate;
   Eigen::ArrayXd usable;  ///< 1, or 0 where the bench spoiled the sample or smoothing has no hold
-  Eigen::ArrayXd motor_slides;  ///< motor_slides() where counted(); empty: 1 everywhere
+  Eigen::ArrayXd accelerations_held;  ///< Accelerations::held; empty: 1 everywhere
+  Eigen::ArrayXd motor_slides;        ///< motor_slides() where counted(); empty: 1 everywhere
 
   double torsion_range = 0.0;  ///< largest |torsion|
   double lowest = 0.0;         ///< torsion, of all rows

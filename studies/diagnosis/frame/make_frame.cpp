@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/frame/accelerations.hpp"
 #include "diagnosis/frame/baseline.hpp"
 #include "diagnosis/frame/counted.hpp"
 #include "diagnosis/frame/middle.hpp"
@@ -90,7 +91,7 @@ void append(ArrayXd& to, Index first, Index count, const Series& from, Index str
 class FrameMaker {
  public:
   FrameMaker(const RecordingSet& set, const PeriodicAngle& periodic, Index rows)
-      : set_(set), periodic_(periodic) {
+      : set_(set), periodic_(periodic), accelerations_(rows) {
     frame_.rig = set.rig;
     frame_.kept = no_baselines_yet();
     frame_.ratio = constant(set, "gear_ratio", 1.0);
@@ -137,6 +138,7 @@ class FrameMaker {
     }
     mark_usable(*c.recording, count, stride);
     put(frame_.motor_slides, counted_motor(*c.recording, d.motor_bandwidth));
+    accelerations_.add(d, at_, count, stride);
     frame_.segments.push_back({c.recording->id, at_, count, c.recording->split});
     at_ += count;
   }
@@ -154,6 +156,7 @@ class FrameMaker {
     for (Segment& s : frame_.segments) {
       s.repeat = repeat_of(frame_.motor_angle.segment(s.first, s.count));
     }
+    accelerations_.give(frame_);
     return std::move(frame_);
   }
 
@@ -327,6 +330,7 @@ class FrameMaker {
   const PeriodicAngle& periodic_;
   Frame frame_;
   Index at_ = 0;
+  AccelerationsMaker accelerations_;
 
  public:
   void set_travels(bool travels) { frame_.travels = travels; }

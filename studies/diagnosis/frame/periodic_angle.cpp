@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include "diagnosis/frame/accelerations.hpp"
 #include "diagnosis/frame/running.hpp"
 #include "diagnosis/frame/smoothed.hpp"
 
@@ -177,7 +178,10 @@ Result<void> smooth_torsion(double ratio, const Recording& recording, DriveChann
 }
 
 Result<DriveChannels> smooth_channels(const RecordingSet& set, const Recording& recording) {
-  auto channels = drive_channels(set.rig, unit_drive(set), recording, resolution_on(set.rig));
+  const bool drives = set.rig != Rig::specimen;
+  auto channels =
+      drive_channels(set.rig, unit_drive(set), recording, resolution_on(set.rig),
+                     drives ? std::span<const double>(kNarrower) : std::span<const double>{});
   if (!channels || set.rig != Rig::free) return channels;
   if (auto torsion = smooth_torsion(ratio_of(set), recording, *channels); !torsion) {
     return tl::unexpected(torsion.error());
@@ -205,8 +209,11 @@ Result<DriveChannels> channels_with(const RecordingSet& set, const Recording& re
     }
     const double stretch = 1.0 / (1.0 - periodic.slope(theta));
     const double speed = channels->motor_speed[i] * stretch;
-    const double acceleration =
-        (channels->motor_acceleration[i] + periodic.curvature(theta) * speed * speed) * stretch;
+    const auto whole = [&](double smoothed) {
+      return (smoothed + periodic.curvature(theta) * speed * speed) * stretch;
+    };
+    const double acceleration = whole(channels->motor_acceleration[i]);
+    for (auto& narrower : channels->narrower) narrower.motor[i] = whole(narrower.motor[i]);
     channels->torsion[i] += (theta - channels->motor_angle[i]) / ratio;
     channels->torsion_rate[i] += (speed - channels->motor_speed[i]) / ratio;
     channels->torsion_acceleration[i] += (acceleration - channels->motor_acceleration[i]) / ratio;

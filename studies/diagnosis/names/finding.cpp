@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/frame/accelerations.hpp"
 #include "diagnosis/names/confirm.hpp"
+#include "diagnosis/names/part_of_progress.hpp"
 #include "diagnosis/names/unnamed_causes.hpp"
 #include "diagnosis/next/experiment.hpp"
+#include "diagnosis/search/bandwidths.hpp"
 #include "diagnosis/search/incident.hpp"
 #include "diagnosis/search/zeros.hpp"
 
@@ -98,9 +101,8 @@ std::string gap_in_words(const Finding& free_f, const Finding& gap) {
       h.ci95_upper * h.rmse_before);
 }
 
-}  // namespace
-
-Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& progress) {
+// With accelerations of the bandwidths that the frame has.
+Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& progress) {
   auto selection = beside_incidents(frame, limits, progress, nullptr);
   if (!selection) return tl::unexpected(selection.error());
   auto free_f = confirmed(std::move(frame), limits, progress, std::move(*selection));
@@ -113,6 +115,19 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
   }
   (*gap)->frame.notes.push_back(gap_in_words(*free_f, **gap));
   return std::move(**gap);
+}
+
+}  // namespace
+
+Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& progress) {
+  if (!frame.accelerations) return found_in(std::move(frame), limits, progress);
+  auto found = found_in(frame, limits, part_of(progress, 0.0, 0.5));
+  if (!found) return found;
+  const auto bandwidths = best_bandwidths(found->frame, found->selection.final);
+  if (bandwidths == bandwidths_of(frame)) return found;
+  frame = with_bandwidths(std::move(frame), bandwidths);
+  frame.notes.push_back(bandwidths_in_words(frame));
+  return found_in(std::move(frame), limits, part_of(progress, 0.5, 1.0));
 }
 
 Result<Finding> with_probable_names(Finding finding, const Limits& limits) {

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "diagnosis/frame/accelerations.hpp"
 #include "diagnosis/frame/middle.hpp"
 #include "diagnosis/model/motion_error.hpp"
 #include "diagnosis/proof/held_out_error.hpp"
 #include "diagnosis/proof/series.hpp"
+#include "diagnosis/search/bandwidths.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -52,6 +54,23 @@ ArrayXd taken_away(const Frame& frame, const ArrayXd& held) {
     gone.segment(s.first + first, s.count - first).setOnes();
   }
   return gone;
+}
+
+// Accelerations as the search had them; of recordings that it had not, as its model fits them best.
+void take_bandwidths(const Frame& from, const DriveModel& model, const ArrayXd& usable, Frame& to) {
+  if (!to.accelerations) return;
+  std::vector<std::size_t> bandwidths;
+  std::vector<bool> unknown;
+  for (const Segment& s : to.segments) {
+    const Segment* known = segment_of(from, s.id);
+    unknown.push_back(known == nullptr);
+    bandwidths.push_back(known == nullptr ? 0 : known->bandwidth);
+  }
+  to = with_bandwidths(std::move(to), bandwidths);
+  Frame all = to;
+  all.usable = usable;
+  to = with_bandwidths(std::move(to), bandwidths_for(all, model, unknown));
+  to.torque_range = from.torque_range;
 }
 
 Judged all_rows(Frame whole, const ArrayXd& held, const Frame& searched) {
@@ -131,7 +150,9 @@ Result<RecordingSet> without(const RecordingSet& set, const std::vector<std::str
 
 Result<Judged> judge(Frame whole, const ArrayXd& held, const Finding& finding) {
   const auto& [searched, selection, known] = finding;
+  const ArrayXd usable = whole.usable;
   Judged judged = all_rows(std::move(whole), held, searched);
+  take_bandwidths(searched, selection.final.fit.model, usable, judged.frame);
   auto before = fitted_again(judged.frame, searched, selection.baseline);
   if (!before) return tl::unexpected(before.error());
   auto after = fitted_again(judged.frame, searched, selection.final);

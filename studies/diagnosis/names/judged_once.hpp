@@ -16,7 +16,8 @@ struct Judged {
 /// stand, and the others are read off once. whole: the frame of all recordings, as it was made;
 /// held: 1 in each row that was taken away. From its first such row on nothing of a recording is
 /// fitted. Where mountings have zeros of their own, each recording that was taken away is counted
-/// from where it is unloaded. Errors: those of fits.
+/// from where it is unloaded; the bandwidth of its accelerations is the one by which what was found
+/// leaves least of it, before and after alike (bandwidths_for). Errors: those of fits.
 Result<Judged> judge(Frame whole, const Eigen::ArrayXd& held, const Finding& finding);
 
 /// Errors of these residuals on the rows marked 1, at the output, with the interval of their ratio.

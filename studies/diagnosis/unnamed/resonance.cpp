@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -26,6 +27,7 @@ constexpr double kOfDamping = kDampings.back() / kDampings.front();
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMostDamping = 0.5 * std::numbers::sqrt2;  // with more a mode has no peak
 constexpr double kRowsPerPeriod = 5.0;  // linear between these a sine is 19 % off at most
+constexpr double kKept = 0.5;           // of a bandwidth: smoothing takes 1/65 of a motion, or less
 constexpr int kHalvings = 5;            // to 0.2 % of a frequency, 6 % of a damping ratio
 constexpr double kAlike = 1e-12;        // one less a squared correlation: rounding
 
@@ -92,12 +94,23 @@ ModeFit fitted(const Frame& frame, const ArrayXd& u, const ArrayXd& residual, co
   return {mode, a, b, a * xr + b * yr};
 }
 
+// Of accelerations that are used.
+double narrowest_bandwidth(const Frame& frame) {
+  const bool smoothed = frame.motor_bandwidth.size() > 0 && frame.has(Equation::motor);
+  if (!smoothed) return std::numeric_limits<double>::infinity();
+  const ArrayXd used = frame.rows_of(Equation::motor);
+  return (used > 0.0)
+      .select(frame.motor_bandwidth, std::numeric_limits<double>::infinity())
+      .minCoeff();
+}
+
 /// The modes that recordings can tell: with a period in the longest, and five rows a period; that
-/// decay in the longest, and have a peak.
+/// decay in the longest, and have a peak; of accelerations what smoothing leaves as it is.
 struct Range {
   explicit Range(const Frame& frame)
       : lowest(std::max(1.0 / frame.longest_lag(), kTurn / frame.duration)),
-        highest(kTurn / (kRowsPerPeriod * frame.interval)),
+        highest(std::min(kTurn / (kRowsPerPeriod * frame.interval),
+                         kKept * narrowest_bandwidth(frame))),
         least_decay(1.0 / frame.duration) {}
 
   /// False where nothing moves or no time passes.

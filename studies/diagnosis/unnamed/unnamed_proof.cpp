@@ -22,6 +22,8 @@ HoldoutProof proof_of_part(const Frame& frame, const Findings& final, const Proo
     before += residual * rows;
     after += (residual - part(proof.by_fold[k], final.weight[e] * (1.0 - folds[k]))) * rows;
   }
+  before = as_noise_alone(frame, final.noise[e], before);
+  after = as_noise_alone(frame, final.noise[e], after);
   HoldoutProof h;
   h.rmse_before = rms_on(before, held);
   h.rmse_after = rms_on(after, held);

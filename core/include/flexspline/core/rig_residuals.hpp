@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct DriveChannels {
   std::vector<double> motor_angle_error, torsion_error;
   std::vector<double> motor_speed_error, torsion_rate_error;
   std::vector<double> motor_acceleration_error, load_acceleration_error;
+  /// Accelerations that are smoothed further, with their standard deviations and bandwidths, rad/s;
+  /// of an angle that is not recorded empty.
+  struct Narrower {
+    std::vector<double> motor, load, motor_error, load_error;
+    double motor_bandwidth = std::numeric_limits<double>::infinity();
+    double load_bandwidth = std::numeric_limits<double>::infinity();
+  };
+  std::vector<Narrower> narrower;
   std::vector<double> load_torque;  ///< beyond the pendulum's; empty for none
 };
 
@@ -54,8 +63,10 @@ Result<DriveResiduals> residuals(Rig rig, const DriveSpec& drive, const DriveCha
 
 /// A recording's channels, angles smoothed by a penalised spline for their derivatives. On the
 /// locked rig the load rests. current becomes motor torque by kt, duty_cycle by kt (V - ke
-/// omega)/R. Errors: fewer than 16 samples.
+/// omega)/R. narrower: by what the bandwidths of further accelerations are divided. Errors: fewer
+/// than 16 samples.
 Result<DriveChannels> drive_channels(Rig rig, const DriveSpec& drive, const Recording& recording,
-                                     Resolution resolution = Resolution::even);
+                                     Resolution resolution = Resolution::even,
+                                     std::span<const double> narrower = {});
 
 }  // namespace flexspline
