@@ -10,9 +10,8 @@ namespace {
 
 constexpr double kLeast = 1e-6;     // of the range: what is finer are no counts, but digits
 constexpr double kRounding = 0.02;  // of a level: counts are printed with few digits
-// Different values that last, all of which lie by chance within kRounding of a level in one of
-// 1e10.
-constexpr std::size_t kHeld = 8;
+// Different values that last: by chance all are even counts in one of 2^15.
+constexpr std::size_t kHeld = 16;
 
 // Samples that last: of counts resampled on a grid those that are no mixture of two.
 std::vector<double> held(std::span<const double> samples) {
@@ -78,18 +77,23 @@ double common_level(std::span<const double> samples) {
   for (auto step = first; step != steps.end() && level > least; ++step) {
     level = common_part(*step, level);
   }
-  const bool alike = first == steps.begin() && steps.back() < 1.5 * level;
-  return alike || level <= least ? 0.0 : level;
+  return level <= least ? 0.0 : level;
+}
+
+// No two samples alike, and all a level apart: a ramp that no counter has read.
+bool is_a_ramp(std::span<const double> samples, double level) {
+  const std::vector<double> steps = steps_of(samples);
+  return steps.front() > kRounding * level && steps.back() < 1.5 * level;
 }
 
 }  // namespace
 
 double level_of_counts(std::span<const double> samples) {
-  if (samples.empty()) return 0.0;
-  const double level = common_level(samples);
-  if (level > 0.0) return level;
   const std::vector<double> values = held(samples);
-  return different(values) < kHeld ? 0.0 : common_level(values);
+  const double of_held = different(values) < kHeld ? 0.0 : common_level(values);
+  if (of_held > 0.0) return of_held;
+  const double level = samples.size() < 2 ? 0.0 : common_level(samples);
+  return level > 0.0 && is_a_ramp(samples, level) ? 0.0 : level;
 }
 
 double deviation_of_counts(std::span<const double> samples) {

@@ -1,6 +1,7 @@
 // What the counts of an encoder tell of a motion, and what they leave of it.
 #include "flexspline/core/counts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -50,6 +51,28 @@ TEST(Counts, AreNoSamplesOfASineOrARampThatIsNotCounted) {
   EXPECT_EQ(level_of_counts(sampled([](double t) { return std::sin(t); })), 0.0);
   EXPECT_EQ(level_of_counts(sampled([](double t) { return 0.3 * t; })), 0.0);
   EXPECT_EQ(level_of_counts(sampled([](double) { return 0.3; })), 0.0);
+}
+
+// Read every third sample, and a line between: what lasts are counts, what lies between is none.
+TEST(Counts, ThatWereInterpolatedOnAGridHaveALevel) {
+  auto samples = counted([](double t) { return 0.02 * std::sin(t); });
+  for (std::size_t i = 0; i + 3 < samples.size(); i += 3) {
+    samples[i + 1] = samples[i] + (samples[i + 3] - samples[i]) / 3.0;
+    samples[i + 2] = samples[i] + (samples[i + 3] - samples[i]) / 1.5;
+  }
+  EXPECT_NEAR(level_of_counts(samples), kLevel, 1e-6 * kLevel);
+  EXPECT_GT(deviation_of_counts(samples), 0.2 * kLevel / std::sqrt(12.0)) << "at least";
+}
+
+// A value that comes twice, as where a sensor missed one, or at the end of its range, is no count.
+TEST(Counts, AreNotWhatLastsForOtherReasons) {
+  const auto sine = [](double t) { return std::sin(t); };
+  auto missed = sampled(sine);
+  for (std::size_t i = 7; i < missed.size(); i += 13) missed[i] = missed[i - 1];
+  EXPECT_EQ(level_of_counts(missed), 0.0);
+  auto clipped = sampled(sine);
+  for (double& x : clipped) x = std::clamp(x, -0.9, 0.9);
+  EXPECT_EQ(level_of_counts(clipped), 0.0);
 }
 
 TEST(Counts, LeaveATwelfthOfASquareLevelWhereTheyAreAllPassed) {
