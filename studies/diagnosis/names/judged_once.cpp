@@ -153,6 +153,7 @@ Result<Judged> judge(Frame whole, const ArrayXd& held, const Finding& finding) {
   const ArrayXd usable = whole.usable;
   Judged judged = all_rows(std::move(whole), held, searched);
   take_bandwidths(searched, selection.final.fit.model, usable, judged.frame);
+  if (judged.frame.accelerations) judged.held *= judged.frame.accelerations_held;
   auto before = fitted_again(judged.frame, searched, selection.baseline);
   if (!before) return tl::unexpected(before.error());
   auto after = fitted_again(judged.frame, searched, selection.final);

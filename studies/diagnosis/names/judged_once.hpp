@@ -7,7 +7,7 @@ namespace flexspline::studies {
 /// What a search that never saw them leaves of the rows that were taken away.
 struct Judged {
   Frame frame;             ///< of all recordings
-  Eigen::ArrayXd held;     ///< usable rows that were taken away
+  Eigen::ArrayXd held;     ///< usable rows that were taken away, and that smoothing has hold of
   ModelFit before, after;  ///< the baseline and what was found, all rows
   PerEquation of_motion;   ///< torque_of_motion_error() of what was found
 };
