@@ -127,7 +127,11 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
   if (bandwidths == bandwidths_of(frame)) return found;
   frame = with_bandwidths(std::move(frame), bandwidths);
   frame.notes.push_back(bandwidths_in_words(frame));
-  return found_in(std::move(frame), limits, part_of(progress, 0.5, 1.0));
+  auto again = found_in(std::move(frame), limits, part_of(progress, 0.5, 1.0));
+  if (!again) return again;
+  // What it takes of a ripple, a narrower bandwidth hides.
+  const bool better = again->proof.holdout.rmse_after < found->proof.holdout.rmse_after;
+  return better ? std::move(again) : std::move(found);
 }
 
 Result<Finding> with_probable_names(Finding finding, const Limits& limits) {

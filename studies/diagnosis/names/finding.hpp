@@ -13,8 +13,9 @@ struct Finding {
 
 /// Causes beside a baseline with a free f, proved on recordings held out; where that may hide a gap
 /// (may_hide_a_gap), beside a firm spring too, which stands where it tells one. Of a drive all of
-/// it again where what was found tells accelerations of other bandwidths (best_bandwidths). No name
-/// is taken away yet. Errors: those of the fits.
+/// it again where what was found tells accelerations of other bandwidths (best_bandwidths), which
+/// stands where it predicts recordings held out better. No name is taken away yet. Errors: those of
+/// the fits.
 Result<Finding> find_causes(Frame frame, const Limits& limits,
                             const std::function<void(double, std::string_view)>& progress);
 

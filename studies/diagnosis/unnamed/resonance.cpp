@@ -94,23 +94,20 @@ ModeFit fitted(const Frame& frame, const ArrayXd& u, const ArrayXd& residual, co
   return {mode, a, b, a * xr + b * yr};
 }
 
-// Of accelerations that are used.
-double narrowest_bandwidth(const Frame& frame) {
-  const bool smoothed = frame.motor_bandwidth.size() > 0 && frame.has(Equation::motor);
-  if (!smoothed) return std::numeric_limits<double>::infinity();
-  const ArrayXd used = frame.rows_of(Equation::motor);
-  return (used > 0.0)
-      .select(frame.motor_bandwidth, std::numeric_limits<double>::infinity())
-      .minCoeff();
+// Of the accelerations that an equation has, where it is judged.
+double narrowest_bandwidth(const Frame& frame, Equation equation) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (equation == Equation::torsion || frame.motor_bandwidth.size() == 0) return kNone;
+  return (frame.rows_of(equation) > 0.0).select(frame.motor_bandwidth, kNone).minCoeff();
 }
 
 /// The modes that recordings can tell: with a period in the longest, and five rows a period; that
 /// decay in the longest, and have a peak; of accelerations what smoothing leaves as it is.
 struct Range {
-  explicit Range(const Frame& frame)
+  Range(const Frame& frame, Equation equation)
       : lowest(std::max(1.0 / frame.longest_lag(), kTurn / frame.duration)),
         highest(std::min(kTurn / (kRowsPerPeriod * frame.interval),
-                         kKept * narrowest_bandwidth(frame))),
+                         kKept * narrowest_bandwidth(frame, equation))),
         least_decay(1.0 / frame.duration) {}
 
   /// False where nothing moves or no time passes.
@@ -166,7 +163,7 @@ ModeFit best_mode(const Frame& frame, const ModelFit& model, Equation equation,
   const ArrayXd u = torque_of(frame, model, equation);
   const ArrayXd& residual = model.residual[index_of(equation)];
   const auto fit = [&](const Mode& mode) { return fitted(frame, u, residual, weight, mode); };
-  const Range range(frame);
+  const Range range(frame, equation);
   const auto modes = first_guesses(range);
   std::vector<ModeFit> fits(modes.size());
   in_parallel(modes.size(), threads_for(threads), [&](std::size_t i) { fits[i] = fit(modes[i]); });
