@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "flexspline/core/counts.hpp"
 #include "sanity/check.hpp"
 
 namespace flexspline::data {
@@ -48,17 +47,15 @@ AtExtreme at(const Series& values, double value) {
 }
 
 /// Most samples at one of the levels below (above) the extreme; 0 would mean a channel without any.
-/// level: of a counter, whose samples may be resampled between its counts; 0: each value is one.
-std::size_t at_levels_beside(const Series& values, double extreme, double level) {
+std::size_t at_levels_beside(const Series& values, double extreme, bool top) {
   std::map<double, std::size_t> counts;
   for (const double value : values) {
-    const double gone = std::abs(extreme - value);
-    if (gone > 0.0) ++counts[level > 0.0 ? std::max(1.0, std::round(gone / level)) : gone];
+    if (value != extreme) ++counts[top ? -value : value];
   }
   std::size_t most = 1;
-  std::size_t levels = 0;
+  std::size_t level = 0;
   for (const auto& [value, count] : counts) {
-    if (levels++ == kLevels) break;
+    if (level++ == kLevels) break;
     most = std::max(most, count);
   }
   return most;
@@ -89,10 +86,10 @@ bool hides_a_turn(const Flank& flank, double row, double level) {
   return 2.0 * flank.speed >= kTurnsWithin * row * flank.deceleration;
 }
 
-/// Least distance between two of the values next to the extreme.
-double level_beside(const Series& values, double extreme) {
+/// Least distance between two of the levels next to the extreme.
+double level_beside(const Series& values, double extreme, bool top) {
   std::vector<double> distinct;
-  for (const double value : values) distinct.push_back(std::abs(extreme - value));
+  for (const double value : values) distinct.push_back(top ? extreme - value : value - extreme);
   std::ranges::sort(distinct);
   distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
   double least = std::numeric_limits<double>::infinity();
@@ -116,7 +113,8 @@ std::vector<double> gone_from(const Series& values, double extreme, std::ptrdiff
 }
 
 /// Whether most of the rows at an extreme are come to, and left, by a motion that goes on beyond.
-bool goes_on_beyond(const Series& values, double extreme, double level) {
+bool goes_on_beyond(const Series& values, double extreme, bool top) {
+  const double level = level_beside(values, extreme, top);
   std::size_t flanks = 0;
   std::size_t hiding = 0;
   for (std::size_t first = 0, last = 0; first < values.size(); first = last + 1) {
@@ -150,15 +148,13 @@ double partner_moves(const ObservedSet& all, const Recording& recording, Quantit
 }
 
 bool is_clipped(const ObservedSet& all, const Recording& recording, Quantity quantity,
-                const Series& values, const AtExtreme& extreme) {
+                const Series& values, const AtExtreme& extreme, bool top) {
   const std::size_t least = is_position(quantity) ? kLeastTurning : kLeastSamples;
   if (extreme.count < least || extreme.row < kLeastRow) return false;
   if (is_position(quantity) && extreme.rows < 2) return false;  // what is parked stands once
-  const double counted = level_of_counts(values);
-  const auto beside = static_cast<double>(at_levels_beside(values, extreme.value, counted));
+  const auto beside = static_cast<double>(at_levels_beside(values, extreme.value, top));
   if (static_cast<double>(extreme.count) < kAgainstLevels * beside) return false;
-  const double level = counted > 0.0 ? counted : level_beside(values, extreme.value);
-  if (is_position(quantity) && !goes_on_beyond(values, extreme.value, level)) return false;
+  if (is_position(quantity) && !goes_on_beyond(values, extreme.value, top)) return false;
   return partner_moves(all, recording, quantity, extreme) > kPartnerMoves;
 }
 
@@ -172,7 +168,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
         const double value =
             top ? *std::ranges::max_element(*values) : *std::ranges::min_element(*values);
         const AtExtreme extreme = at(*values, value);
-        if (!is_clipped(all, recording, quantity, *values, extreme)) continue;
+        if (!is_clipped(all, recording, quantity, *values, extreme, top)) continue;
         list.push_back(kCutOff.on(
             recording.id, fmt::format("{} is cut off: {} of {} samples are exactly {:.6g}, its {}",
                                       name_of(quantity), extreme.count, values->size(), value,

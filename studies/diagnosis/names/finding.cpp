@@ -128,7 +128,12 @@ Result<Finding> find_causes(Frame frame, const Limits& limits, const Progress& p
   frame = with_bandwidths(std::move(frame), bandwidths);
   frame.notes.push_back(bandwidths_in_words(frame));
   auto again = found_in(std::move(frame), limits, part_of(progress, 0.5, 1.0));
-  if (!again) return again;
+  if (!again) {
+    found->frame.notes.push_back(
+        fmt::format("with accelerations of narrower bandwidths nothing could be searched: {}",
+                    again.error().message()));
+    return found;
+  }
   // What it takes of a ripple, a narrower bandwidth hides.
   const bool better = again->proof.holdout.rmse_after < found->proof.holdout.rmse_after;
   return better ? std::move(again) : std::move(found);
