@@ -41,6 +41,40 @@ void motor_runout(Frame& f, Values shape) {
   f.torsion_rate += f.motor_speed * (shape[0] * c - shape[1] * s);
 }
 
+std::vector<Shape> amplitudes_of_arm(const Frame&) {
+  constexpr double kMost = 0.1;  // of the effect, rad
+  return {{.name = "sine",
+           .unit = "rad",
+           .lower = -kMost,
+           .upper = kMost,
+           .logarithmic = false,
+           .meaning = "of the error once a turn"},
+          {.name = "cosine",
+           .unit = "rad",
+           .lower = -kMost,
+           .upper = kMost,
+           .logarithmic = false,
+           .meaning = "its cosine"}};
+}
+
+// A servo has one encoder: its motor moves as the arm does.
+void arm_runout(Frame& f, Values shape) {
+  const ArrayXd s = f.load_angle.sin();
+  const ArrayXd c = f.load_angle.cos();
+  const ArrayXd e = shape[0] * s + shape[1] * c;
+  const ArrayXd first = shape[0] * c - shape[1] * s;
+  const ArrayXd further = f.load_acceleration * first - f.load_speed.square() * e;
+  f.motor_angle -= f.ratio * e;
+  f.motor_speed -= f.ratio * f.load_speed * first;
+  f.motor_acceleration -= f.ratio * further;
+  f.load_angle -= e;
+  f.load_speed -= f.load_speed * first;
+  f.load_acceleration -= further;
+  f.hang_pendulum();
+}
+
+std::vector<double> small(const Frame&) { return {1e-3, 1e-3}; }
+
 std::vector<double> motor_start(const Frame& f) {
   return periodic_torsion(f, f.motor_angle, {1.0});
 }
@@ -76,7 +110,14 @@ CauseRow describe_encoder_eccentricity() {
                      .shapes = amplitudes,
                      .transform = motor_runout,
                      .start = motor_start,
-                     .counterpart = at_the_motor}}};
+                     .counterpart = at_the_motor},
+                    {.equation = "theta_l,measured = theta_l + e sin(theta_l + p)",
+                     .rigs = {Rig::servo},
+                     .at = {Equation::motor},
+                     .shapes = amplitudes_of_arm,
+                     .transform = arm_runout,
+                     .start = small,
+                     .counterpart = at_the_load}}};
 }
 
 }  // namespace flexspline::studies

@@ -29,12 +29,30 @@ std::vector<double> relaxations_of(const Frame& f) {
   return geometric(4.0 * f.interval, f.duration, kBranches);
 }
 
+std::vector<Shape> relaxation(const Frame& f) {
+  return {{.name = "time_constant",
+           .unit = "s",
+           .lower = 4.0 * f.interval,
+           .upper = f.duration,
+           .grid = kBranches,
+           .meaning = "in which it relaxes"}};
+}
+
+Columns one_branch(Equation, const Frame& f, const Reference&, Values shape) {
+  return {branch(f, shape[0])};
+}
+
 Columns branches(Equation, const Frame& f, const Reference&, Values) {
   Columns columns;
   for (double relaxation : relaxations_of(f)) {
     columns.push_back(branch(f, relaxation));
   }
   return columns;
+}
+
+Counterpart as_one_branch(const FittedCause& c) {
+  return {.effects = {{"viscoelastic_creep",
+                       {{"stiffness", c.coefficients[0]}, {"time_constant", c.shape[0]}}}}};
 }
 
 Counterpart as_branches(const FittedCause& c) {
@@ -50,6 +68,10 @@ Counterpart as_branches(const FittedCause& c) {
   return {.effects = {std::move(effect)}};
 }
 
+std::vector<Term> one_term(const Frame&) {
+  return {{"stiffness", "Nm/rad", "of a spring that relaxes"}};
+}
+
 std::vector<Term> terms(const Frame& f) {
   return elements(relaxations_of(f),
                   {"stiffness", "Nm/rad", "of a spring that relaxes", "time_constant", 0.0, "s",
@@ -61,7 +83,16 @@ std::vector<Term> terms(const Frame& f) {
 CauseRow describe_viscoelastic_creep() {
   return {.id = "viscoelastic_creep",
           .coordinate = "lag",
-          .forms = {{.equation = "tau += sum_i k_i s_i, s_i' = phi' - s_i/T_i",
+          .forms = {{.equation = "tau += k s, s' = phi' - s/T",
+                     .rigs = kAnyRig,
+                     .at = {Equation::torsion},
+                     .shapes = relaxation,
+                     .terms = one_term,
+                     .columns = one_branch,
+                     .nonnegative = true,
+                     .where = wound_up,
+                     .counterpart = as_one_branch},
+                    {.equation = "tau += sum_i k_i s_i, s_i' = phi' - s_i/T_i",
                      .rigs = kAnyRig,
                      .at = {Equation::torsion},
                      .terms = terms,

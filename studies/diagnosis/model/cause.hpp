@@ -45,6 +45,7 @@ struct Reference {
   Eigen::ArrayXd dissipative;         ///< g^-1(phi'/h)
   Eigen::ArrayXd friction;            ///< the same and what causes of the model add to it
   Eigen::ArrayXd motor_sign;          ///< the motor's dry friction over its largest value
+  Eigen::ArrayXd asked_rate;          ///< rate of the torque that the laws ask of the motor, Nm/s
   double torsion_coulomb_rate = 1.0;  ///< rad/s (m/s) at which that across the gear saturates
 };
 
@@ -67,6 +68,7 @@ struct CauseForm {
   bool nonnegative = false;  ///< a_k >= 0
   bool friction = false;     ///< resists the motion across the transmission, beside g^-1
   bool rescales = false;     ///< a channel, by 1 + a or 1 - a, and does nothing else
+  bool trails = false;       ///< what all the others ask for, of which it is no part
   bool extends = false;      ///< the form before it in the row, by its last shape
   /// What the recordings must be like; without it anything.
   std::function<bool(const Frame&)> where{};

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "diagnosis/model/cause_columns.hpp"
 #include "diagnosis/model/model_problem.hpp"
 #include "diagnosis/model/motor_sign.hpp"
 
@@ -53,6 +54,50 @@ ArrayXd unfiltered(const Frame& seen, const Reference& reference, const DriveMod
     sum += model.coefficients[i][static_cast<Index>(k)] * columns[k];
   }
   return sum;
+}
+
+void take_gear(const Frame& frame, const DriveModel& model, Reference& reference) {
+  const std::size_t e = index_of(Equation::torsion);
+  if (model.own.size() <= e || model.own[e].size() == 0) return;
+  ModelColumns columns(frame, reference);
+  Frame seen = columns.seen(model);
+  seen.torque_lag = 0.0;
+  const auto own = shared_baseline(seen, Equation::torsion, model.torsion_shape);
+  const Eigen::VectorXd& b = model.own[e];
+  reference.elastic = (own->columns.leftCols(own->elastic) * b.head(own->elastic)).array();
+  reference.dissipative = (own->columns.middleCols(own->elastic, own->dissipative) *
+                           b.segment(own->elastic, own->dissipative))
+                              .array();
+  reference.friction = reference.dissipative;
+  for (std::size_t i = 0; i < model.causes.size(); ++i) {
+    if (model.causes[i].form->friction) reference.friction += unfiltered(seen, reference, model, i);
+  }
+}
+
+DriveModel without_trailing(DriveModel model) {
+  for (std::size_t i = model.causes.size(); i-- > 0;) {
+    if (!model.causes[i].form->trails) continue;
+    model.causes.erase(model.causes.begin() + static_cast<long>(i));
+    if (i < model.coefficients.size()) {
+      model.coefficients.erase(model.coefficients.begin() + static_cast<long>(i));
+    }
+  }
+  return model;
+}
+
+// Of the measured torque across the gear what is smooth.
+ArrayXd asked_rate_of(const Frame& frame, const DriveModel& model, const Reference& reference) {
+  const std::size_t e = index_of(Equation::motor);
+  if (!frame.has(Equation::motor) || model.own.size() <= e || model.own[e].size() == 0) {
+    return ArrayXd::Zero(frame.rows());
+  }
+  ModelFit fit;
+  fit.model = without_trailing(model);
+  ModelColumns columns(frame, reference);
+  fill_residuals(frame, columns, {Equation::motor}, fit);
+  ArrayXd asked = fit.prediction[e];
+  if (frame.rig != Rig::servo) asked -= (frame.torque - frame.smooth_torque) / frame.ratio;
+  return rate_of(frame, asked);
 }
 
 }  // namespace
@@ -111,21 +156,8 @@ Reference reference_of(const Frame& frame, const DriveModel& model) {
   reference.friction = reference.dissipative;
   reference.motor_sign = motor_sign(frame, model);
   reference.torsion_coulomb_rate = coulomb_width(frame, model.torsion_shape);
-  const std::size_t e = index_of(Equation::torsion);
-  if (model.own.size() <= e || model.own[e].size() == 0) return reference;
-  ModelColumns columns(frame, reference);
-  Frame seen = columns.seen(model);
-  seen.torque_lag = 0.0;
-  const auto own = shared_baseline(seen, Equation::torsion, model.torsion_shape);
-  const Eigen::VectorXd& b = model.own[e];
-  reference.elastic = (own->columns.leftCols(own->elastic) * b.head(own->elastic)).array();
-  reference.dissipative = (own->columns.middleCols(own->elastic, own->dissipative) *
-                           b.segment(own->elastic, own->dissipative))
-                              .array();
-  reference.friction = reference.dissipative;
-  for (std::size_t i = 0; i < model.causes.size(); ++i) {
-    if (model.causes[i].form->friction) reference.friction += unfiltered(seen, reference, model, i);
-  }
+  take_gear(frame, model, reference);
+  reference.asked_rate = asked_rate_of(frame, model, reference);
   return reference;
 }
 

@@ -16,8 +16,6 @@
 namespace flexspline::studies {
 namespace {
 
-constexpr int kSteps = 8;
-
 using Progress = std::function<void(double, std::string_view)>;
 
 // One loop proves no cause: there is nothing to hold it against.
@@ -35,7 +33,7 @@ Result<Findings> first_model(const Frame& frame, const Limits& limits, const Pro
                              const Selection* from) {
   if (from == nullptr) return select_causes(frame, limits, progress).map(&Selection::final);
   Findings model = from->final;
-  return refresh(frame, model, kSteps).map([&] { return std::move(model); });
+  return refresh(frame, model, kRefreshSteps).map([&] { return std::move(model); });
 }
 
 // With every recording counted from where the causes fit it best.

@@ -9,7 +9,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr double kMiddle = 0.1;
-constexpr int kSteps = 8;
 constexpr int kPasses = 2;
 constexpr double kSoft = 0.25;  // softer than any spring of a gear that a catalogue states
 
@@ -69,7 +68,7 @@ Result<OtherSpring> with_other_spring(const Frame& frame, const Selection& s) {
   OtherSpring other{frame, s.final};
   other.frame.firm_spring = !frame.firm_spring;
   for (int pass = 0; pass < kPasses; ++pass) {
-    if (auto fitted = refresh(other.frame, other.findings, kSteps); !fitted) {
+    if (auto fitted = refresh(other.frame, other.findings, kRefreshSteps); !fitted) {
       return tl::unexpected(fitted.error());
     }
   }

@@ -18,7 +18,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kSteps = 8;
 constexpr int kPasses = 2;  // the columns of some causes follow the fit
 
 bool is_one_of(const std::vector<std::string>& ids, const std::string& id) {
@@ -115,7 +114,7 @@ Result<ModelFit> fitted_again(const Frame& frame, const Frame& searched, Finding
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     findings.reference = reference_of(frame, findings.fit.model);
-    const auto fitted = fit_all(frame, findings, kSteps, kJudgedFall);
+    const auto fitted = fit_all(frame, findings, kRefreshSteps, kJudgedFall);
     if (!fitted) return tl::unexpected(fitted.error());
   }
   return findings.fit;

@@ -47,10 +47,10 @@ std::optional<SanityFinding> rescaled(const Accepted& accepted, const Eigen::Vec
   return found;
 }
 
-// Friction may be all of a specimen's torque, and a joint whose torque is late has twice its
-// friction the wrong way round at every reversal.
+// Friction may be all of a specimen's torque, a joint whose torque is late has twice its friction
+// the wrong way round at every reversal, and a motor that is late and kicked lacks the kick.
 bool may_be_large(const Frame& frame, const CauseForm& form) {
-  return form.friction || (form.transform != nullptr && frame.travels);
+  return form.friction || form.trails || (form.transform != nullptr && frame.travels);
 }
 
 std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accepted,

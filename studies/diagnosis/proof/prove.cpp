@@ -15,8 +15,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kSteps = 8;
-
 /// Findings whose weights leave the held-out rows out of the fit.
 Findings on_training(Findings findings, const ArrayXd& out) {
   for (PerEquation* weights : {&findings.weight, &findings.fit_weight}) {
@@ -74,7 +72,7 @@ Result<void> fit_both(const Frame& frame, const Selection& s, const ArrayXd& out
   fold.base = on_training(on_weights_of(s.baseline, s.final), out);
   fold.final = on_training(s.final, out);
   for (Findings* one : {&fold.base, &fold.final}) {
-    const auto done = fit_all(frame, *one, kSteps, kJudgedFall);
+    const auto done = fit_all(frame, *one, kRefreshSteps, kJudgedFall);
     if (!done) return done;
   }
   return {};
@@ -84,7 +82,7 @@ Result<void> fit_placebo(const Frame& frame, const Selection& s, FoldFits& fold)
   if (s.accepted.empty() || s.accepted.front().field.empty()) return {};
   Findings instead = fold.base;
   instead.fit = s.accepted.front().field.front().fit;
-  const auto done = fit_all(frame, instead, kSteps, kJudgedFall);
+  const auto done = fit_all(frame, instead, kRefreshSteps, kJudgedFall);
   if (done) fold.placebo = std::move(instead.fit);
   return done;
 }
@@ -92,7 +90,7 @@ Result<void> fit_placebo(const Frame& frame, const Selection& s, FoldFits& fold)
 // What stands in the place of the causes: the model without each, and the placebo.
 Result<void> fit_without(const Frame& frame, const Selection& s, FoldFits& fold) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    auto fit = reduced(frame, fold.final, s.immaterial.size() + i, kSteps, kJudgedFall);
+    auto fit = reduced(frame, fold.final, s.immaterial.size() + i, kRefreshSteps, kJudgedFall);
     if (!fit) return tl::unexpected(fit.error());
     fold.without.push_back(std::move(*fit));
   }

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::ArrayXd;
 
-constexpr int kSteps = 8;
 constexpr double kGain = 0.05;  // of an error
 
 std::vector<std::size_t> all_at(const Frame& frame, std::size_t k) {
@@ -51,6 +50,11 @@ class JudgedByAll {
       }
     }
     return misfit;
+  }
+
+  double misfit(const Findings& model) const {
+    const auto by_segment = misfits(model.fit.residual);
+    return std::reduce(by_segment.begin(), by_segment.end());
   }
 
  private:
@@ -90,17 +94,18 @@ std::vector<std::size_t> bandwidths_for(const Frame& frame, const DriveModel& mo
 
 std::vector<std::size_t> best_bandwidths(const Frame& frame, const Findings& model) {
   const JudgedByAll judged(frame);
-  DriveModel best = model.fit.model;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < frame.accelerations->size(); ++k) {
+  Findings best = model;
+  double least = judged.misfit(model);
+  // The first octave takes most of the noise: where it leaves more, the next do.
+  for (std::size_t k = 1; k < frame.accelerations->size(); ++k) {
     const Frame other = with_bandwidths(frame, all_at(frame, k));
-    Findings fitted = model;
-    if (!refresh(other, fitted, kSteps)) continue;
-    const auto misfits = judged.misfits(fitted.fit.residual);
-    const double misfit = std::reduce(misfits.begin(), misfits.end());
-    if (misfit < least) least = misfit, best = std::move(fitted.fit.model);
+    Findings fitted = best;
+    if (!refresh(other, fitted, kRefreshSteps)) break;
+    const double misfit = judged.misfit(fitted);
+    if (misfit >= least) break;
+    least = misfit, best = std::move(fitted);
   }
-  return bandwidths_for(frame, best, std::vector(frame.segments.size(), true));
+  return bandwidths_for(frame, best.fit.model, std::vector(frame.segments.size(), true));
 }
 
 std::string bandwidths_in_words(const Frame& frame) {

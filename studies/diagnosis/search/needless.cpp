@@ -31,7 +31,7 @@ bool hides(const Frame& frame, const Selection& s, std::size_t large, std::size_
            const std::vector<double>& loss, const Limits& limits) {
   const Accepted& a = s.accepted[small];
   const Accepted& b = s.accepted[large];
-  if (large == small || !share_equation(a, b)) return false;
+  if (loss[large] <= loss[small] || !share_equation(a, b)) return false;
   if (!stands_for(a, b) && !stands_for(b, a)) return loss[small] < limits.shadow * loss[large];
   const double share = loss[small] / std::max(a.first_gain, b.first_gain);
   if (share < limits.tenth) return true;

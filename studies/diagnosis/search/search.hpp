@@ -8,6 +8,9 @@
 
 namespace flexspline::studies {
 
+/// Of the shapes, in a fit that starts from one of nearly the same model.
+inline constexpr int kRefreshSteps = 8;
+
 /// What is known of a drive at a stage of the search.
 struct Findings {
   ModelFit fit;

@@ -111,7 +111,7 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
 
 bool is_taken_up(const Trial& trial, const Limits& limits) {
   return trial.cause.form->transform == nullptr && trial.size >= limits.half &&
-         trial.change < trial.size;
+         trial.change < limits.alike() * trial.size;
 }
 
 void judge_small_again(const Frame& frame, const Limits& limits, Selection& s) {

@@ -35,9 +35,6 @@ struct Limits {
   double as_noise() const { return 1.0 / half; }
 };
 
-/// Of the shapes, in a fit that starts from one of nearly the same model.
-inline constexpr int kRefreshSteps = 8;
-
 /// A cause that was accepted, with the others that did nearly as well.
 struct Accepted {
   Trial trial;
@@ -70,7 +67,7 @@ Accepted accept(std::vector<Trial> trials, std::size_t best, const Limits& limit
 /// True for a part of the baseline that adds more to its law than such parts do: something else.
 bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 
-/// True for columns that the baseline counteracts: large, and larger than what is seen of them.
+/// True for columns that the baseline counteracts: large, and not nearly all of them is seen.
 bool is_taken_up(const Trial& trial, const Limits& limits);
 
 /// Makes a cause material that was too small to be named when it was accepted, and now adds

@@ -9,7 +9,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr std::size_t kMostMismatches = 6;
-constexpr int kSteps = 8;
 
 Mismatch at_worst(const Frame& frame, const Findings& findings, Equation equation) {
   const WorstWindow w = worst_window(frame, findings, equation);
@@ -31,7 +30,7 @@ Mismatch mismatch_of(const Frame& frame, const Selection& s, const Accepted& sma
   const auto at = static_cast<std::size_t>(&small - s.immaterial.data());
   const Equation equation = first_equation(frame, *small.trial.cause.form);
   Findings without = s.baseline;
-  if (auto fit = reduced(frame, s.baseline, at, kSteps)) without.fit = std::move(*fit);
+  if (auto fit = reduced(frame, s.baseline, at, kRefreshSteps)) without.fit = std::move(*fit);
   Mismatch m = at_worst(frame, without, equation);
   m.coordinate = small.trial.cause.row->coordinate;
   m.share_of_excess = std::clamp(small.trial.removed, 0.0, 1.0);
