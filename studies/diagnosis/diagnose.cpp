@@ -70,7 +70,7 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   d.display = all.display;
   d.notes = all.notes;
   append(d.notes, frame.notes);
-  append(d.notes, spelled_parts(selection));
+  append(d.notes, spelled_parts(frame, selection));
   if (equation_to_prove(frame, selection) == Equation::motor) {
     d.notes.push_back(sticking_in_words(frame));
   }

@@ -63,7 +63,8 @@ TEST_P(LinearisedOn, GainsWhatTheWholeFitGains) {
   EXPECT_GE(compared, 2);
 }
 
-// Without shapes of the baseline there is nothing that a first order leaves out.
+// Without shapes of the baseline there is nothing that a first order leaves out but what a change
+// of the motion does to the baseline's columns.
 TEST_P(LinearisedOn, IsExactWhereTheBaselineIsLinear) {
   int compared = 0;
   for (const CauseRow& row : causes()) {
@@ -78,7 +79,8 @@ TEST_P(LinearisedOn, IsExactWhereTheBaselineIsLinear) {
       const auto whole = extended(frame_, findings_, cause, 0);
       ASSERT_TRUE(near && whole) << row.id;
       const double all = chi_square(frame_, findings_, findings_.fit);
-      EXPECT_NEAR(near->gain, gain_of(whole), 1e-6 * all) << row.id << ", " << form->equation;
+      const double share = form->transform != nullptr ? 1e-4 : 1e-6;
+      EXPECT_NEAR(near->gain, gain_of(whole), share * all) << row.id << ", " << form->equation;
       ++compared;
     }
   }

@@ -84,8 +84,8 @@ struct DriveModel;
 /// What the baseline has where recordings ask for it, and what is never a name.
 struct BaselinePart {
   double most = std::numeric_limits<double>::infinity();  ///< larger coefficients are no such part
-  /// Of the cause at that place in the model.
-  std::string (*says)(const DriveModel&, std::size_t cause) = nullptr;
+  /// Of the cause at that place in the model of a frame.
+  std::string (*says)(const Frame&, const DriveModel&, std::size_t cause) = nullptr;
 };
 
 /// A row of the catalogue of causes: an id of flexspline-diagnosis/1 and the ways it may act.

@@ -28,7 +28,7 @@ std::vector<Term> terms(const Frame&) {
       {"sine", "1", "of the angle at which the arm hangs, over the share of gravity that acts"}};
 }
 
-std::string in_words(const DriveModel& model, std::size_t cause) {
+std::string in_words(const Frame&, const DriveModel& model, std::size_t cause) {
   const Eigen::VectorXd& own = model.own[index_of(Equation::motor)];
   const double gravity = own[own.size() - 2];  // before the load's inertia
   return fmt::format("the arm hangs at {:.2g} deg of its encoder",

@@ -21,7 +21,7 @@ std::vector<Term> excess(const Frame&) {
   return {{"excess", "1", "by which f is stiffer on its positive side, and softer on the other"}};
 }
 
-std::string in_words(const DriveModel& model, std::size_t cause) {
+std::string in_words(const Frame&, const DriveModel& model, std::size_t cause) {
   return fmt::format("the spring is {:.2g} % stiffer at positive torsion than at negative",
                      200.0 * model.coefficients[cause][0]);
 }

@@ -48,7 +48,7 @@ void before_the_filter(Frame& f, Values shape) {
   f.torque_lag = shape[0];
 }
 
-std::string in_words(const DriveModel& model, std::size_t cause) {
+std::string in_words(const Frame&, const DriveModel& model, std::size_t cause) {
   return fmt::format("angle and torque are behind one filter of {:.2g} s",
                      model.causes[cause].shape[0]);
 }

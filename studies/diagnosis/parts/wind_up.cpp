@@ -8,36 +8,44 @@
 namespace flexspline::studies {
 namespace {
 
+using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 double largest_load(const Frame& f) { return (f.torque.abs() * f.usable).maxCoeff(); }
 
-std::vector<Shape> compliance(const Frame& f) {
+std::vector<Shape> spring(const Frame& f) {
   constexpr double kMost = 0.1;  // rad at the largest load
+  const double most = largest_load(f);
   return {{.name = "compliance",
            .unit = "rad/Nm",
            .lower = 0.0,
-           .upper = kMost / largest_load(f),
+           .upper = kMost / most,
            .logarithmic = false,
            .meaning = "of the gear between the arm and the motor, unloaded"},
-          {.name = "stiffening",
-           .unit = "1",
-           .lower = 0.01,
-           .upper = 100.0,
-           .meaning = "the largest load over that at which it gets stiffer"}};
+          {.name = "stiffening_load",
+           .unit = "Nm",
+           .lower = 0.01 * most,
+           .upper = 100.0 * most,
+           .meaning = "from which the gear is stiffer"}};
 }
 
-std::vector<double> stiff(const Frame& f) { return {1e-4 / largest_load(f), 1.0}; }
+std::vector<double> stiff(const Frame& f) {
+  const double most = largest_load(f);
+  return {1e-4 / most, most};
+}
+
+ArrayXd angle_of(const Frame& f, Values shape) {
+  const ArrayXd x = f.torque / shape[1];
+  return shape[0] * shape[1] * x.unaryExpr([](double v) { return std::asinh(v); });
+}
 
 // Its speed as it was: what winds up is slow beside it.
-void wound_up(Frame& f, Values shape) {
-  const double load = largest_load(f) / shape[1];
-  f.motor_angle += f.ratio * shape[0] * load *
-                   (f.torque / load).unaryExpr([](double x) { return std::asinh(x); });
-}
+void wound_up(Frame& f, Values shape) { f.motor_angle += f.ratio * angle_of(f, shape); }
 
-std::string in_words(const DriveModel& model, std::size_t cause) {
-  return fmt::format("the gear winds up by {:.2g} mrad/Nm", 1e3 * model.causes[cause].shape[0]);
+std::string in_words(const Frame& f, const DriveModel& model, std::size_t cause) {
+  const ArrayXd angle = angle_of(f, model.causes[cause].shape);
+  return fmt::format("the gear winds up by {:.2g} mrad at the largest load",
+                     1e3 * (angle.abs() * f.usable).maxCoeff());
 }
 
 constexpr std::string_view kNoTorsion = "a servo's model file has no torsion";
@@ -52,7 +60,7 @@ CauseRow describe_wind_up() {
           .forms = {{.equation = "theta_m = N (theta_l + c tau_s asinh(tau/tau_s))",
                      .rigs = {Rig::servo},
                      .at = {Equation::motor},
-                     .shapes = compliance,
+                     .shapes = spring,
                      .transform = wound_up,
                      .start = stiff,
                      .where = geared,

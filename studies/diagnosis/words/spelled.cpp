@@ -158,13 +158,13 @@ std::string baseline_in_words(const Frame& frame) {
   return words;
 }
 
-std::vector<std::string> spelled_parts(const Selection& s) {
+std::vector<std::string> spelled_parts(const Frame& frame, const Selection& s) {
   std::vector<std::string> list;
   const DriveModel& model = s.final.fit.model;
   for (std::size_t i = 0; i < model.causes.size(); ++i) {
     const auto& part = model.causes[i].row->part;
     if (!part) continue;
-    list.push_back(part->says(model, i) + ": part of the baseline, not an effect");
+    list.push_back(part->says(frame, model, i) + ": part of the baseline, not an effect");
   }
   return list;
 }

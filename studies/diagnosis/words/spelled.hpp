@@ -13,7 +13,7 @@ double p_value(double chi_square, int parameters);
 /// The parts of a diagnosis that a person reads, from the numbers of the search.
 std::string baseline_in_words(const Frame& frame);
 /// What recordings asked of the baseline beyond that.
-std::vector<std::string> spelled_parts(const Selection& selection);
+std::vector<std::string> spelled_parts(const Frame& frame, const Selection& selection);
 std::vector<Cause> spelled_causes(const Frame& frame, const Selection& selection,
                                   const Proof& proof);
 /// Incidents, coordinates of the causes, a resonance, then those of the scan by strength, each with
