@@ -6,8 +6,7 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
-std::vector<Shape> amplitudes(const Frame& f) {
-  const double most = 0.5 * f.torsion_range;
+std::vector<Shape> amplitudes_to(double most) {
   return {{.name = "sine",
            .unit = "rad",
            .lower = -most,
@@ -20,6 +19,13 @@ std::vector<Shape> amplitudes(const Frame& f) {
            .upper = most,
            .logarithmic = false,
            .meaning = "its cosine"}};
+}
+
+std::vector<Shape> amplitudes(const Frame& f) { return amplitudes_to(0.5 * f.torsion_range); }
+
+std::vector<Shape> amplitudes_of_arm(const Frame&) {
+  constexpr double kMost = 0.1;  // of the effect, rad
+  return amplitudes_to(kMost);
 }
 
 // theta_l is less than measured by e = a sin theta_l + b cos theta_l.
@@ -39,22 +45,6 @@ void motor_runout(Frame& f, Values shape) {
   const ArrayXd c = f.motor_angle.cos();
   f.torsion += shape[0] * s + shape[1] * c;
   f.torsion_rate += f.motor_speed * (shape[0] * c - shape[1] * s);
-}
-
-std::vector<Shape> amplitudes_of_arm(const Frame&) {
-  constexpr double kMost = 0.1;  // of the effect, rad
-  return {{.name = "sine",
-           .unit = "rad",
-           .lower = -kMost,
-           .upper = kMost,
-           .logarithmic = false,
-           .meaning = "of the error once a turn"},
-          {.name = "cosine",
-           .unit = "rad",
-           .lower = -kMost,
-           .upper = kMost,
-           .logarithmic = false,
-           .meaning = "its cosine"}};
 }
 
 // A servo has one encoder: its motor moves as the arm does.

@@ -26,15 +26,12 @@ Columns at_joint(Equation, const Frame& f, const Reference& known, Values) {
   return turns(f.motor_angle, rounded_sign(f.torsion_rate, known.torsion_coulomb_rate));
 }
 
-// What a joint shows along its travel: half waves of it.
-template <int kWaves>
+// What a joint shows along its travel: two harmonics of twice the travel.
 Columns along_travel(Equation, const Frame& f, const Reference& known, Values) {
   const ArrayXd sign = rounded_sign(f.torsion_rate, known.torsion_coulomb_rate);
   const double low = f.torsion.minCoeff();
-  const ArrayXd u = std::numbers::pi * (f.torsion - low) / (f.torsion.maxCoeff() - low);
-  Columns columns;
-  for (int k = 1; k <= kWaves; ++k) columns.push_back((k * u).cos() * sign);
-  return columns;
+  const ArrayXd u = 3.14159265358979323846 * (f.torsion - low) / (f.torsion.maxCoeff() - low);
+  return {u.cos() * sign, (2.0 * u).cos() * sign, (3.0 * u).cos() * sign};
 }
 
 void add_wave(EffectSpec& effect, double order, double sine, double cosine, double width) {
@@ -84,51 +81,40 @@ std::vector<Term> turn_terms(const Frame&) {
           {"cosine_2", "Nm", "its cosine"}};
 }
 
-template <int kWaves>
 std::vector<Term> travel_terms(const Frame&) {
-  std::vector<Term> terms;
-  for (int k = 1; k <= kWaves; ++k) {
-    terms.push_back({"cosine_" + std::to_string(k), "Nm",
-                     "of the friction over the travel, its half waves " + std::to_string(k)});
-  }
-  return terms;
-}
-
-template <int kWaves>
-CauseForm by_travel(std::string equation) {
-  return {.equation = std::move(equation),
-          .rigs = {Rig::specimen},
-          .at = {Equation::torsion},
-          .terms = travel_terms<kWaves>,
-          .columns = along_travel<kWaves>,
-          .where = travels,
-          .counterpart = travel_waves};
+  return {{"cosine_1", "Nm", "of the friction over the travel, half a wave"},
+          {"cosine_2", "Nm", "one wave"},
+          {"cosine_3", "Nm", "one and a half waves"}};
 }
 
 }  // namespace
 
 CauseRow describe_position_dependent_friction() {
-  return {
-      .id = "position_dependent_friction",
-      .coordinate = "motor_angle",
-      .forms = {
-          {.equation = "tau_f += sum_k (a_k sin k theta_m + b_k cos k theta_m) sgn w, k = 1, 2",
-           .rigs = kTurning,
-           .at = {Equation::motor},
-           .terms = turn_terms,
-           .columns = at_motor,
-           .where = geared,
-           .counterpart = motor_waves},
-          {.equation = "tau += sum_k (a_k sin k N q + b_k cos k N q) sgn q', k = 1, 2",
-           .rigs = {Rig::specimen},
-           .at = {Equation::torsion},
-           .terms = turn_terms,
-           .columns = at_joint,
-           .where = travels,
-           .ripples = ripples,
-           .counterpart = joint_waves},
-          by_travel<3>("tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel, k to 3"),
-          by_travel<6>("tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel, k to 6")}};
+  return {.id = "position_dependent_friction",
+          .coordinate = "motor_angle",
+          .forms = {
+              {.equation = "tau_f += sum_k (a_k sin k theta_m + b_k cos k theta_m) sgn w, k = 1, 2",
+               .rigs = kTurning,
+               .at = {Equation::motor},
+               .terms = turn_terms,
+               .columns = at_motor,
+               .where = geared,
+               .counterpart = motor_waves},
+              {.equation = "tau += sum_k (a_k sin k N q + b_k cos k N q) sgn q', k = 1, 2",
+               .rigs = {Rig::specimen},
+               .at = {Equation::torsion},
+               .terms = turn_terms,
+               .columns = at_joint,
+               .where = travels,
+               .ripples = ripples,
+               .counterpart = joint_waves},
+              {.equation = "tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel",
+               .rigs = {Rig::specimen},
+               .at = {Equation::torsion},
+               .terms = travel_terms,
+               .columns = along_travel,
+               .where = travels,
+               .counterpart = travel_waves}}};
 }
 
 }  // namespace flexspline::studies

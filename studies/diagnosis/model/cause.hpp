@@ -68,8 +68,9 @@ struct CauseForm {
   bool nonnegative = false;  ///< a_k >= 0
   bool friction = false;     ///< resists the motion across the transmission, beside g^-1
   bool rescales = false;     ///< a channel, by 1 + a or 1 - a, and does nothing else
-  bool trails = false;       ///< what all the others ask for, of which it is no part
-  bool extends = false;      ///< the form before it in the row, by its last shape
+  bool trails =
+      false;  ///< adds a share of what all others ask of the motor, and is no part of that
+  bool extends = false;  ///< the form before it in the row, by its last shape
   /// What the recordings must be like; without it anything.
   std::function<bool(const Frame&)> where{};
   /// Whether it ripples this many times a turn of the motor in steady strokes.
