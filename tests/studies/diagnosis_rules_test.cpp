@@ -36,6 +36,9 @@ TEST(TakenUp, IsWhatIsLargeAndMovesThePredictionByLess) {
   const Limits limits;
   const double large = 1.2 * limits.half;
   EXPECT_TRUE(is_taken_up(trial_of(large, 0.5 * large, false), limits));
+  const double nearly_all = limits.alike() * large;
+  EXPECT_TRUE(is_taken_up(trial_of(large, 0.99 * nearly_all, false), limits));
+  EXPECT_FALSE(is_taken_up(trial_of(large, 1.01 * nearly_all, false), limits)) << "nearly all";
   EXPECT_FALSE(is_taken_up(trial_of(large, 1.1 * large, false), limits)) << "it is seen in full";
   EXPECT_FALSE(is_taken_up(trial_of(0.9 * limits.half, 0.0, false), limits)) << "small";
   EXPECT_FALSE(is_taken_up(trial_of(large, 0.0, true), limits)) << "no column";

@@ -134,5 +134,16 @@ TEST(Implausible, IsMoreThanHalfOfTheTorqueOrAGainOffByAFactor) {
   EXPECT_EQ(codes("presliding_hysteresis", 0.9, 1.0), "") << "friction may be all of a torque";
 }
 
+TEST(Implausible, IsNoLateTorqueOfAMotorThatLacksAKick) {
+  const Frame frame = closed_form_frame();
+  const CauseRow& row = cause_row("current_lag");
+  Selection s = one_cause(row, 0.7, 0.03);
+  s.accepted[0].trial.cause.form = &row.forms.back();
+  ASSERT_TRUE(row.forms.back().trails);
+  EXPECT_TRUE(implausible(frame, s, {}).empty());
+  s.accepted[0].trial.cause.form = &row.forms.front();
+  EXPECT_FALSE(implausible(frame, s, {}).empty()) << "a series in T holds for small ones";
+}
+
 }  // namespace
 }  // namespace flexspline::studies
