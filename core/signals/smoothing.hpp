@@ -43,7 +43,7 @@ Result<void> check_samples(std::span<const double> time,
 /// cross-validation with a stochastic trace. Even: a knot for three samples, 3000 at most. Fine:
 /// one for each, 20 000 at most, and a degree of freedom costs 1.1. Of an encoder's counts no less
 /// is left than counting does (deviation_of_counts). narrower: by what the bandwidths of further
-/// second derivatives are divided, so that their penalties are times its sixth power. Errors: those
+/// second derivatives are divided, and by what their knots are farther apart. Errors: those
 /// of check_samples.
 Result<SmoothSignal> smooth_by_spline(std::span<const double> time, std::span<const double> samples,
                                       Resolution resolution = Resolution::even,

@@ -11,17 +11,16 @@
 
 #include "flexspline/core/counts.hpp"
 #include "flexspline/core/cubic_basis.hpp"
+#include "signals/banded.hpp"
 #include "signals/smoothing.hpp"
 
 namespace flexspline {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-// The systems are banded: any other order of elimination than their own costs more to find than it
-// saves.
-using BandedSolver = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
 constexpr std::size_t kFewestSamples = 16;
+constexpr std::size_t kFewestIntervals = 4;
 constexpr int kProbes = 6;
 
 struct Knots {
@@ -81,19 +80,20 @@ struct Equations {
   Equations(std::span<const double> time, const CubicBasis& splines,
             std::span<const std::span<const double>> signals);
 
+  BandFactors with(double penalty) const { return BandFactors(normal + penalty * roughness); }
+
   Sparse basis;
-  Sparse normal;
-  Sparse roughness;
+  Band normal;
+  Band roughness;
   Eigen::MatrixXd samples;  // a column a signal
-  Eigen::MatrixXd right;    // products of the basis with the samples, then with random signs
-  BandedSolver solver;
+  Rows right;               // products of the basis with the samples, then with random signs
 };
 
 Equations::Equations(std::span<const double> time, const CubicBasis& splines,
                      std::span<const std::span<const double>> signals)
-    : basis(design(time, splines)), normal(basis.transpose() * basis) {
+    : basis(design(time, splines)), normal(band_of(basis.transpose() * basis)) {
   const Sparse differences = third_differences(static_cast<int>(splines.size()));
-  roughness = differences.transpose() * differences;
+  roughness = band_of(differences.transpose() * differences);
   const auto rows = static_cast<Eigen::Index>(time.size());
   const auto count = static_cast<Eigen::Index>(signals.size());
   samples.resize(rows, count);
@@ -104,15 +104,13 @@ Equations::Equations(std::span<const double> time, const CubicBasis& splines,
     right.col(s) = basis.transpose() * samples.col(s);
   }
   right.rightCols(kProbes) = basis.transpose() * random_signs(rows);
-  solver.analyzePattern(normal + roughness);
 }
 
 // Generalised cross-validation of one penalty; the trace by random signs (Hutchinson). Keeps it for
 // the signals whose best it is, or whose counts leave more than it does. Penalties rise.
-void try_penalty(Equations& equations, double penalty, double cost,
+void try_penalty(const Equations& equations, double penalty, double cost,
                  std::span<const double> of_counts, std::vector<Penalised>& best) {
-  equations.solver.factorize(equations.normal + penalty * equations.roughness);
-  const Eigen::MatrixXd solved = equations.solver.solve(equations.right);
+  const Rows solved = equations.with(penalty).solve(equations.right);
   const double freedom =
       equations.right.rightCols(kProbes).cwiseProduct(solved.rightCols(kProbes)).sum() / kProbes;
   const double n = static_cast<double>(equations.samples.rows());
@@ -127,6 +125,13 @@ void try_penalty(Equations& equations, double penalty, double cost,
     const bool follows_counts = square <= of_counts[s] * of_counts[s] * (n - freedom);
     if (score < best[s].score || follows_counts) best[s] = {coefficients, score, freedom, penalty};
   }
+}
+
+// The fit of one signal at a penalty that is given; what it takes of freedom is not asked for.
+Penalised fit_at(const Equations& equations, double penalty, std::size_t signal) {
+  const auto column = static_cast<Eigen::Index>(signal);
+  return {.coefficients = equations.with(penalty).solve(equations.right.col(column)),
+          .penalty = penalty};
 }
 
 SmoothSignal signal_of(const Penalised& fit, const CubicBasis& basis, std::span<const double> time,
@@ -194,17 +199,16 @@ std::vector<SmoothSignal> smooth_half(std::span<const double> time,
                                       std::span<const std::span<const double>> signals,
                                       const std::vector<Penalised>& fits, std::size_t intervals,
                                       std::size_t first) {
-  const CubicBasis basis(time.front(), time.back(), std::max<std::size_t>(intervals / 2, 4));
+  const CubicBasis basis(time.front(), time.back(), std::max(intervals / 2, kFewestIntervals));
   std::vector<std::vector<double>> samples;
   for (const auto& signal : signals) samples.push_back(half_of(signal, first));
   const std::vector<std::span<const double>> views(samples.begin(), samples.end());
-  Equations equations(half_of(time, first), basis, views);
+  const Equations equations(half_of(time, first), basis, views);
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < fits.size(); ++s) {
     // Of twice the interval a 64th: the bandwidth stays.
-    equations.solver.factorize(equations.normal + fits[s].penalty / 64.0 * equations.roughness);
-    Penalised fit{equations.solver.solve(equations.right.col(static_cast<Eigen::Index>(s)))};
-    smooth.push_back(signal_of(fit, basis, time, signals[s]));
+    smooth.push_back(
+        signal_of(fit_at(equations, fits[s].penalty / 64.0, s), basis, time, signals[s]));
   }
   return smooth;
 }
@@ -216,15 +220,15 @@ std::vector<SmoothSignal> smooth_half(std::span<const double> time,
 //    value by 0.42 times that, a second derivative by 1.76 times).
 // 2. Half of the difference between the odd and the even samples' curves, the noise's own
 //    deviation: what turns too fast for the samples differs between them.
-void tell_errors(Equations& equations, const std::vector<Penalised>& fits, const CubicBasis& basis,
-                 std::span<const double> time, std::span<const std::span<const double>> signals,
-                 std::size_t intervals, std::vector<SmoothSignal>& smooth) {
+void tell_errors(const Equations& equations, const std::vector<Penalised>& fits,
+                 const CubicBasis& basis, std::span<const double> time,
+                 std::span<const std::span<const double>> signals, std::size_t intervals,
+                 std::vector<SmoothSignal>& smooth) {
   const auto even = smooth_half(time, signals, fits, intervals, 0);
   const auto odd = smooth_half(time, signals, fits, intervals, 1);
   for (std::size_t s = 0; s < fits.size(); ++s) {
-    std::vector<Penalised> rougher(fits.size());
-    try_penalty(equations, fits[s].penalty / 9.0, 0.0, std::vector(fits.size(), 0.0), rougher);
-    const SmoothSignal rough = signal_of(rougher[s], basis, time, signals[s]);
+    const SmoothSignal rough =
+        signal_of(fit_at(equations, fits[s].penalty / 9.0, s), basis, time, signals[s]);
     const auto running = [&](const std::vector<double>& a, const std::vector<double>& b) {
       std::vector<double> change;
       std::ranges::transform(a, b, std::back_inserter(change), std::minus<>());
@@ -243,20 +247,24 @@ void tell_errors(Equations& equations, const std::vector<Penalised>& fits, const
   }
 }
 
-// Behind bandwidths that are so many times narrower.
-std::vector<SmoothSignal> narrowed(double times, Equations& equations, std::vector<Penalised> fits,
-                                   const CubicBasis& basis, std::span<const double> time,
+// Behind bandwidths that are so many times narrower, on knots that are as many times farther apart:
+// on the same ones the penalty, times the sixth power, outgrows what rounding leaves of the
+// samples.
+std::vector<SmoothSignal> narrowed(double times, std::vector<Penalised> fits,
+                                   std::span<const double> time,
                                    std::span<const std::span<const double>> signals,
                                    std::size_t intervals) {
-  const std::vector<double> no_counts(fits.size(), 0.0);
+  const auto wanted = static_cast<std::size_t>(static_cast<double>(intervals) / times);
+  const std::size_t wide = std::max<std::size_t>(wanted, kFewestIntervals);
+  const double apart = static_cast<double>(intervals) / static_cast<double>(wide);
+  const CubicBasis basis(time.front(), time.back(), wide);
+  const Equations equations(time, basis, signals);
   std::vector<SmoothSignal> smooth;
   for (std::size_t s = 0; s < fits.size(); ++s) {
-    std::vector<Penalised> all(fits.size());
-    try_penalty(equations, std::pow(times, 6.0) * fits[s].penalty, 0.0, no_counts, all);
-    fits[s] = all[s];
-    smooth.push_back(smoothed_by(fits[s], basis, time, signals[s], intervals));
+    fits[s] = fit_at(equations, apart * std::pow(times / apart, 6.0) * fits[s].penalty, s);
+    smooth.push_back(smoothed_by(fits[s], basis, time, signals[s], wide));
   }
-  tell_errors(equations, fits, basis, time, signals, intervals, smooth);
+  tell_errors(equations, fits, basis, time, signals, wide, smooth);
   return smooth;
 }
 
@@ -293,10 +301,10 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
     Resolution resolution, std::span<const double> narrower) {
   if (auto sound = check_samples(time, signals); !sound) return tl::unexpected(sound.error());
   const Knots knots = knots_of(resolution);
-  const std::size_t intervals =
-      std::clamp<std::size_t>(time.size() / knots.samples_per_interval, 4, knots.most_intervals);
+  const std::size_t intervals = std::clamp<std::size_t>(time.size() / knots.samples_per_interval,
+                                                        kFewestIntervals, knots.most_intervals);
   const CubicBasis basis(time.front(), time.back(), intervals);
-  Equations equations(time, basis, signals);
+  const Equations equations(time, basis, signals);
   std::vector<double> of_counts;
   for (const auto& signal : signals) of_counts.push_back(deviation_of_counts(signal));
   std::vector<Penalised> best(signals.size());
@@ -313,7 +321,7 @@ Result<std::vector<SmoothSignal>> smooth_by_splines(
   }
   tell_errors(equations, best, basis, time, signals, intervals, smooth);
   for (const double times : narrower) {
-    auto further = narrowed(times, equations, best, basis, time, signals, intervals);
+    auto further = narrowed(times, best, time, signals, intervals);
     for (std::size_t s = 0; s < signals.size(); ++s) {
       smooth[s].narrower.push_back(
           {std::move(further[s].second), std::move(further[s].second_error), further[s].bandwidth});

@@ -10,6 +10,7 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 constexpr std::array kOrders = {2.0, 4.0, 1.0};
+constexpr std::array<std::size_t, 3> kByOrder = {2, 0, 1};
 
 std::vector<Shape> amplitudes(const Frame& f) {
   const double most = 0.5 * f.torsion_range;
@@ -25,14 +26,19 @@ std::vector<Shape> amplitudes(const Frame& f) {
   return shapes;
 }
 
-// phi += sum_k a_k sin(k theta_m) + b_k cos(k theta_m), and its rate.
+// phi += sum_k a_k sin(k theta_m) + b_k cos(k theta_m), and its rate. Each order is twice another,
+// so that its sine and cosine follow.
 void error(Frame& f, Values shape) {
-  for (std::size_t i = 0; i < kOrders.size(); ++i) {
-    const double k = kOrders[i];
-    const ArrayXd s = (k * f.motor_angle).sin();
-    const ArrayXd c = (k * f.motor_angle).cos();
+  ArrayXd s = f.motor_angle.sin();
+  ArrayXd c = f.motor_angle.cos();
+  double order = 1.0;
+  for (const std::size_t i : kByOrder) {
+    for (; order < kOrders[i]; order *= 2.0) {
+      s *= 2.0 * c;
+      c = 2.0 * c.square() - 1.0;
+    }
     f.torsion += shape[2 * i] * s + shape[2 * i + 1] * c;
-    f.torsion_rate += k * f.motor_speed * (shape[2 * i] * c - shape[2 * i + 1] * s);
+    f.torsion_rate += order * f.motor_speed * (shape[2 * i] * c - shape[2 * i + 1] * s);
   }
 }
 

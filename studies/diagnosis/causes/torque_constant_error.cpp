@@ -8,7 +8,7 @@ using Values = std::span<const double>;
 
 // tau_m,recorded = (J1 theta_m'' + friction + tau/N)/(1 + e); friction is free to scale.
 Columns gain(Equation, const Frame& f, const Reference&, Values) {
-  return {-(f.motor_inertia * f.motor_acceleration + f.torque / f.ratio)};
+  return {-(f.motor_inertia * f.motor_acceleration + f.smooth_torque / f.ratio)};
 }
 
 // What was recorded is the share 1 - a of what there was.

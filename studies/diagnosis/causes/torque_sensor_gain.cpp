@@ -6,10 +6,11 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
-// The torsion law takes the gain up in f and g^-1; known inertias do not.
+// The torsion law takes the gain up in f and g^-1; known inertias do not. A share of the measured
+// torque's noise would buy its mean with what another cause says of the same torque.
 Columns gain(Equation equation, const Frame& f, const Reference&, Values) {
   if (equation == Equation::load) return {f.load_inertia * f.load_acceleration};
-  return {-f.torque / f.ratio};
+  return {-f.smooth_torque / f.ratio};
 }
 
 // f and g^-1 were fitted to the torque that was read, larger by the gain. The load's equation tells

@@ -1,6 +1,7 @@
 #include "diagnosis/names/confirm.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "diagnosis/model/cancelling.hpp"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostAlternatives = 2;
 constexpr int kFinalSteps = 12;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // What is read from the final model beside a cause's proof.
 void complete(const Frame& frame, Selection& s, Proof& proof) {
@@ -32,30 +34,47 @@ bool acts_elsewhere(const Frame& frame, const CauseForm& form, Equation equation
   return std::ranges::any_of(form.at, [&](Equation at) { return at != equation && frame.has(at); });
 }
 
-// Of two that take most of each other back, and act nowhere else, the one that is worth less.
-std::optional<std::size_t> taken_back(const Frame& frame, const Limits& limits,
-                                      const Selection& s) {
+/// A cause of the model that another takes back, and why it goes.
+struct TakenBack {
+  std::size_t cause = 0;
+  std::string_view because;
+};
+
+// Of a pair that act nowhere else the one that is worth less. Where one of them does and is taken
+// back all but a tenth, that one: what it has to do here it does not do.
+std::optional<TakenBack> taken_back(const Frame& frame, const Limits& limits, const Selection& s,
+                                    const Cancelling& pair) {
+  constexpr std::string_view kSum = "another takes most of it back: only their sum is told";
+  constexpr std::string_view kRefuted = "what it does in one equation another takes back";
   const DriveModel& model = s.final.fit.model;
   const std::size_t immaterial = model.causes.size() - s.accepted.size();
-  for (const Cancelling& pair : cancelling(frame, model, s.final.reference, limits.half)) {
-    if (pair.second < immaterial) continue;
-    if (acts_elsewhere(frame, *model.causes[pair.first].form, pair.equation) ||
-        acts_elsewhere(frame, *model.causes[pair.second].form, pair.equation)) {
-      continue;
-    }
-    const std::size_t second = pair.second - immaterial;
-    if (pair.first < immaterial) return second;
-    const std::size_t first = pair.first - immaterial;
-    return s.accepted[first].trial.gain < s.accepted[second].trial.gain ? first : second;
+  const auto elsewhere = [&](std::size_t i) {
+    return acts_elsewhere(frame, *model.causes[i].form, pair.equation);
+  };
+  const auto gain = [&](std::size_t i) {
+    return i < immaterial ? kNever : s.accepted[i - immaterial].trial.gain;
+  };
+  if (elsewhere(pair.first) != elsewhere(pair.second)) {
+    if (pair.left > limits.tenth) return std::nullopt;
+    return TakenBack{elsewhere(pair.first) ? pair.first : pair.second, kRefuted};
   }
-  return std::nullopt;
+  if (elsewhere(pair.first)) return std::nullopt;
+  return TakenBack{gain(pair.first) < gain(pair.second) ? pair.first : pair.second, kSum};
 }
 
 Result<void> leave_out_taken_back(const Frame& frame, const Limits& limits, Selection& s) {
-  while (const auto cause = taken_back(frame, limits, s)) {
-    const auto left_out =
-        leave_out(frame, s, *cause, "another takes most of it back: only their sum is told");
-    if (!left_out) return left_out;
+  for (bool again = true; again;) {
+    again = false;
+    const std::size_t immaterial = s.final.fit.model.causes.size() - s.accepted.size();
+    for (const Cancelling& pair :
+         cancelling(frame, s.final.fit.model, s.final.reference, limits.half)) {
+      const auto back = taken_back(frame, limits, s, pair);
+      if (!back || back->cause < immaterial) continue;
+      const auto left_out = leave_out(frame, s, back->cause - immaterial, back->because);
+      if (!left_out) return left_out;
+      again = true;
+      break;
+    }
   }
   return {};
 }
