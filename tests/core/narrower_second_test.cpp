@@ -67,6 +67,30 @@ TEST(NarrowerSecond, ToldErrorsAreOfItsOwn) {
   EXPECT_NEAR(narrower / own, 1.0, 0.35);
 }
 
+// Slow and sampled finely, the penalty of the own bandwidth is large, and times the sixth power of
+// 32 it would leave nothing of the samples beside its rounding.
+TEST(NarrowerSecond, OfASlowMotionSampledFinely) {
+  constexpr double kRate = 0.05;  // rad/s
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal(0.0, 0.005);
+  std::vector<double> time, samples;
+  for (std::size_t i = 0; i < 15000; ++i) {
+    time.push_back(0.002 * static_cast<double>(i));
+    samples.push_back(std::sin(kRate * time.back()) + normal(random));
+  }
+  const std::array octaves = {2.0, 4.0, 8.0, 16.0, 32.0};
+  const auto smooth = smooth_by_spline(time, samples, Resolution::fine, octaves);
+  ASSERT_TRUE(smooth);
+  ASSERT_EQ(smooth->narrower.size(), octaves.size());
+  for (std::size_t k = 2; k < octaves.size(); ++k) {
+    const NarrowerSecond& narrower = smooth->narrower[k];
+    for (std::size_t i = 5000; i < 10000; i += 100) {
+      const double expected = -kRate * kRate * std::sin(kRate * time[i]);
+      EXPECT_NEAR(narrower.second[i], expected, 0.5 * kRate * kRate) << narrower.bandwidth;
+    }
+  }
+}
+
 TEST(NarrowerSecond, LeavesTheSignalAsItIs) {
   std::vector<double> time, samples;
   for (std::size_t i = 0; i < 400; ++i) {

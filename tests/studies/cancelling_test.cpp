@@ -16,14 +16,14 @@ namespace {
 
 using Eigen::ArrayXd;
 
-ActiveCause cause_named(std::string_view id, const Frame& frame) {
+ActiveCause cause_named(std::string_view id, const Frame& frame, Equation first = Equation::motor) {
   for (const CauseRow& row : causes()) {
     if (row.id != id) continue;
     for (const CauseForm* form : forms_on(row, frame)) {
-      if (first_equation(frame, *form) == Equation::motor) return {&row, form, {}};
+      if (first_equation(frame, *form) == first) return {&row, form, {}};
     }
   }
-  throw std::logic_error("no such cause in the motor equation");
+  throw std::logic_error("no such cause in this equation");
 }
 
 class CancellingPair : public testing::Test {
@@ -90,6 +90,47 @@ TEST_F(CancellingPair, LosesTheNameThatIsWorthLess) {
   const Accepted& first_to_go = s.withdrawn.back();
   EXPECT_EQ(first_to_go.trial.cause.row, share_.row);
   EXPECT_THAT(std::string(first_to_go.withdrawn_because), testing::HasSubstr("takes most of it"));
+}
+
+/// An offset of the torque sensor, which the motor equation has to show as well, and one of the
+/// motor's torque that takes a share of it back there.
+Selection with_offsets(const Frame& frame, double share) {
+  const ActiveCause sensor = cause_named("torque_sensor_offset", frame, Equation::torsion);
+  const ActiveCause motor = cause_named("motor_torque_offset", frame);
+  Selection s;
+  s.baseline = s.final = *fit_baseline(frame);
+  const auto in_motor_equation = [&](const ActiveCause& cause) {
+    return cause.form->columns(Equation::motor, frame, s.final.reference, cause.shape)
+        .front()
+        .mean();
+  };
+  const double taken = -share * in_motor_equation(sensor) / in_motor_equation(motor);
+  s.final.fit.model.causes = {sensor, motor};
+  s.final.fit.model.coefficients = {Eigen::VectorXd::Constant(1, 1.0),
+                                    Eigen::VectorXd::Constant(1, taken)};
+  s.accepted = {accepted_with(sensor, 500.0), accepted_with(motor, 400.0)};
+  return s;
+}
+
+std::string why_first_to_go(const Selection& s) {
+  return s.withdrawn.empty() ? "none" : std::string(s.withdrawn.back().withdrawn_because);
+}
+
+TEST(TakenBack, InOneOfItsEquationsACauseIsRefuted) {
+  const Frame frame = drawn_frame(Rig::locked);
+  Selection s = with_offsets(frame, 0.95);
+  const auto proof = confirm(frame, {}, s);
+  ASSERT_TRUE(proof) << proof.error().message();
+  ASSERT_FALSE(s.withdrawn.empty());
+  EXPECT_EQ(s.withdrawn.back().trial.cause.row->id, "torque_sensor_offset");
+  EXPECT_THAT(why_first_to_go(s), testing::HasSubstr("in one equation another takes back"));
+}
+
+TEST(TakenBack, InPartACauseIsTold) {
+  const Frame frame = drawn_frame(Rig::locked);
+  Selection s = with_offsets(frame, 0.85);
+  ASSERT_TRUE(confirm(frame, {}, s));
+  EXPECT_THAT(why_first_to_go(s), testing::Not(testing::HasSubstr("takes back")));
 }
 
 TEST_F(CancellingPair, IsToldInWords) {
