@@ -18,6 +18,7 @@ Band band_of(const Eigen::SparseMatrix<double>& symmetric) {
   return band;
 }
 
+// In the order of a row by row elimination, so that rounding is that of a general sparse solver.
 BandFactors::BandFactors(Band a) : l_(std::move(a)) {
   const Index n = l_.cols();
   for (Index j = 0; j < n; ++j) {
@@ -26,7 +27,7 @@ BandFactors::BandFactors(Band a) : l_(std::move(a)) {
     l_(0, j) = 1.0 / column[0];
     const Index below = std::min<Index>(3, n - 1 - j);
     for (Index k = 1; k <= below; ++k) {
-      for (Index i = k; i <= below; ++i) l_(i - k, j + k) -= l_(i, j) * column[k];
+      for (Index i = k; i <= below; ++i) l_(i - k, j + k) -= l_(k, j) * column[i];
     }
   }
 }
