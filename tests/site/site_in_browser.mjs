@@ -33,6 +33,7 @@ const pagesIn = (folder) =>
 
 const browser = await driver.launch({ executablePath: chromium, args: ["--no-sandbox"] });
 const page = await browser.newPage({ viewport: { width: 390, height: 900 } });
+page.setDefaultTimeout(120000);  // on a busy machine
 const pages = pagesIn(work);
 const anchors = new Map();
 const links = [];

@@ -56,7 +56,7 @@ async function checkFigure(page, figure, at) {
   const id = await figure.getAttribute("data-figure");
   await figure.scrollIntoViewIfNeeded();
   const drawn = figure.locator(".chart svg").first();
-  await drawn.waitFor({ timeout: 5000 }).catch(() => check(false, `${at}: figure ${id} is not drawn`));
+  await drawn.waitFor({ timeout: 60000 }).catch(() => check(false, `${at}: figure ${id} is not drawn`));
   const strokes = await figure.locator(".chart").evaluateAll((charts) =>
     charts.map((chart) => chart.querySelectorAll("svg path[clip-path], svg g[clip-path] path, svg path").length));
   check(strokes.length > 0 && strokes.every((count) => count > 5), `${at}: a panel of ${id} has no series (${strokes})`);
@@ -222,6 +222,7 @@ async function visit(browser, report, url, width, scheme, folder) {
   const at = `${report.name}, ${width} px, ${scheme}`;
   const desk = width > 1000 && scheme === "light";  // pointer and keyboard act alike on every screen
   const page = await browser.newPage({ viewport: { width, height: 900 }, colorScheme: scheme });
+  page.setDefaultTimeout(120000);  // a picture of a long page takes longer than 30 s on a busy machine
   page.on("console", (message) => check(!["error", "warning"].includes(message.type()), `${at}: console: ${message.text()}`));
   page.on("pageerror", (error) => check(false, `${at}: ${error}`));
   page.on("request", (request) => check(request.url() === url || /^(data|blob):/.test(request.url()), `${at}: request for ${request.url()}`));
