@@ -79,9 +79,11 @@ function derive(figure: Figure, all: Record<string, Figure>): void {
   }));
 }
 
-/** What the page carries: JSON behind gzip and base64. */
+/** What the page carries: JSON behind gzip and base64. A plain loop: Uint8Array.from takes 200 ms for 0.8 MB. */
 export async function unpack(text: string): Promise<string> {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
 }
 
