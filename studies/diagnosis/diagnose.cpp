@@ -34,16 +34,20 @@ double noise_of(const Frame& frame, const Selection& selection) {
 }
 
 /// What a model file says of causes that are in the model without being named.
-std::vector<std::string> remarks_on(const Selection& s) {
+std::vector<std::string> remarks_on(const Selection& s, const Limits& limits) {
   std::vector<std::string> remarks;
   for (const Accepted& small : s.immaterial) {
     remarks.push_back(
         small.trial.cause.row->of_baseline()
             ? ""
-            : fmt::format("too small to be named: {:.2g} % of torque", 100.0 * small.trial.size));
+            : fmt::format("too small to be named: {}", how_small(small.trial, limits)));
   }
   remarks.resize(remarks.size() + s.accepted.size());
   for (const Accepted& one : s.unnamed) {
+    if (!one.trial.cause.row->outside.empty()) {
+      remarks.emplace_back("outside the catalogue");
+      continue;
+    }
     remarks.push_back(
         fmt::format("its form, not its name: that has a probability of {:.2g}", one.probability));
   }
@@ -76,7 +80,7 @@ Diagnosis spelled(const RecordingSet& all, const Decision& decision, const Limit
   }
   if (const auto lag = velocity_lag(frame)) d.notes.push_back(in_words(*lag));
   append(d.notes, decision.notes);
-  auto specification = specify(frame, selection.final.fit.model, remarks_on(selection));
+  auto specification = specify(frame, selection.final.fit.model, remarks_on(selection, limits));
   d.model = std::move(specification.model);
   append(d.notes, std::move(specification.notes));
   d.baseline_model = baseline_in_words(frame);

@@ -134,6 +134,27 @@ TEST(Implausible, IsMoreThanHalfOfTheTorqueOrAGainOffByAFactor) {
   EXPECT_EQ(codes("presliding_hysteresis", 0.9, 1.0), "") << "friction may be all of a torque";
 }
 
+// What turns has a mass: less of it than half of what is stated is none.
+TEST(Implausible, IsAnInertiaThatIsTakenAway) {
+  const Frame frame = closed_form_frame();
+  const CauseRow& row = cause_row("inertia_torque");
+  for (const auto& [equation, stated] : {std::pair(Equation::load, frame.load_inertia),
+                                         std::pair(Equation::motor, frame.motor_inertia)}) {
+    const auto form = std::ranges::find_if(
+        row.forms, [&](const CauseForm& f) { return f.at == std::vector{equation}; });
+    ASSERT_NE(form, row.forms.end());
+    const auto taken = [&](double share) {
+      Selection s = one_cause(row, 0.2, -share * stated);
+      s.accepted[0].trial.cause.form = &*form;
+      return implausible(frame, s, {});
+    };
+    EXPECT_TRUE(taken(0.4).empty());
+    EXPECT_TRUE(taken(-5.0).empty()) << "what was forgotten may be more than what is stated";
+    ASSERT_EQ(taken(0.6).size(), 1U);
+    EXPECT_NE(taken(0.6)[0].message().find("kg m2 beside the"), std::string::npos);
+  }
+}
+
 TEST(Implausible, IsNoLateTorqueOfAMotorThatLacksAKick) {
   const Frame frame = closed_form_frame();
   const CauseRow& row = cause_row("current_lag");

@@ -31,7 +31,8 @@ class UnnamedCauses : public SearchedDrive {
   void add_least_of_all() {
     auto trials = try_causes(frame_, s_.baseline);
     std::erase_if(trials, [](const Trial& t) {
-      return t.cause.row == nullptr || t.cause.row->of_baseline() || t.cause.form->friction;
+      return t.cause.row == nullptr || t.cause.row->of_baseline() ||
+             !t.cause.row->outside.empty() || t.cause.form->friction;
     });
     Accepted least = s_.accepted.front();
     least.trial = *std::ranges::min_element(trials, {}, &Trial::gain);
@@ -41,6 +42,12 @@ class UnnamedCauses : public SearchedDrive {
     ASSERT_TRUE(both) << both.error().message();
     s_.final.fit = std::move(*both);
     s_.accepted.insert(s_.accepted.begin(), std::move(least));
+  }
+
+  void put_the_hidden_first() {
+    std::ranges::reverse(s_.accepted);
+    std::ranges::reverse(s_.final.fit.model.causes);
+    std::ranges::reverse(s_.final.fit.model.coefficients);
   }
 
   // With probabilities of the names that are given.
@@ -83,23 +90,45 @@ TEST_F(UnnamedCauses, StayInTheModelWhereSomethingIsLeftWithoutThem) {
   EXPECT_EQ(s_.final.fit.model.causes.size(), 1U);
 }
 
+// What only a form without a name follows is left beside the names, as a table's would be.
+TEST_F(UnnamedCauses, AreLeftOverBesideThoseThatAreNamed) {
+  auto proof = prove(frame_, s_, 0);
+  ASSERT_TRUE(proof);
+  take_left_over(frame_, s_.final, s_, *proof);
+  const double beside_all = proof->causes.front().name.left_over;
+  take_left_over(frame_, s_.baseline, s_, *proof);
+  const double beside_none = proof->causes.front().name.left_over;
+  EXPECT_GT(beside_none, 0.03) << "the baseline leaves most of it to a table";
+  EXPECT_LT(beside_all, 0.1 * beside_none);
+  take_left_over(frame_, s_.final, s_, *proof);
+  EXPECT_EQ(proof->causes.front().name.left_over, beside_none) << "once said, it stays";
+}
+
 TEST_F(UnnamedCauses, StandBehindThoseThatAreNamed) {
   add_least_of_all();
-  std::ranges::reverse(s_.accepted);
-  std::ranges::reverse(s_.final.fit.model.causes);
-  std::ranges::reverse(s_.final.fit.model.coefficients);
+  put_the_hidden_first();
   const DriveModel model = s_.final.fit.model;
   const std::string_view named = s_.accepted.back().trial.cause.row->id;
-  const auto proof = take_names({0.2, 0.9});
+  const auto proof = take_names({0.2, 0.985});
   EXPECT_THAT(ids(s_.accepted), ElementsAre(named));
   EXPECT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
   ASSERT_EQ(proof.causes.size(), 1U);
-  EXPECT_NEAR(probability_of(proof.causes.front()), 0.9, 1e-4);
+  EXPECT_LT(probability_of(proof.causes.front()), 0.985) << "what the other follows is left over";
   const DriveModel& moved = s_.final.fit.model;
   EXPECT_EQ(moved.causes[0].row, model.causes[1].row);
   EXPECT_EQ(moved.coefficients[0], model.coefficients[1]);
   EXPECT_EQ(moved.causes[1].row, model.causes[0].row);
   EXPECT_EQ(moved.coefficients[1], model.coefficients[0]);
+}
+
+TEST_F(UnnamedCauses, TakeNamesAlongThatExplainLess) {
+  add_least_of_all();
+  put_the_hidden_first();
+  const std::string_view least = s_.accepted.back().trial.cause.row->id;
+  const auto proof = take_names({0.2, 0.9});
+  EXPECT_THAT(ids(s_.accepted), IsEmpty());
+  EXPECT_THAT(ids(s_.unnamed), ElementsAre(least, kHidden));
+  EXPECT_TRUE(proof.causes.empty());
 }
 
 TEST_F(UnnamedCauses, AreWithdrawnWhereTheNamedLeaveNothing) {

@@ -89,12 +89,14 @@ CauseRow describe_inertia_torque() {
                      .at = {Equation::load},
                      .terms = terms,
                      .columns = of_load,
+                     .stated = &Frame::load_inertia,
                      .counterpart = at_load},
                     {.equation = "tau_f += J theta_m''",
                      .rigs = kDrives,
                      .at = {Equation::motor},
                      .terms = terms,
                      .columns = of_motor,
+                     .stated = &Frame::motor_inertia,
                      .counterpart = at_motor}}};
 }
 

@@ -65,9 +65,10 @@ struct CauseForm {
   void (*transform)(Frame&, std::span<const double>) = nullptr;
   /// Start of the shapes of a transform, from the recordings; without it the grid is searched.
   std::vector<double> (*start)(const Frame&) = nullptr;
-  bool nonnegative = false;  ///< a_k >= 0
-  bool friction = false;     ///< resists the motion across the transmission, beside g^-1
-  bool rescales = false;     ///< a channel, by 1 + a or 1 - a, and does nothing else
+  bool nonnegative = false;         ///< a_k >= 0
+  bool friction = false;            ///< resists the motion across the transmission, beside g^-1
+  bool rescales = false;            ///< a channel, by 1 + a or 1 - a, and does nothing else
+  double Frame::*stated = nullptr;  ///< the rig's constant to which the coefficient adds
   bool trails =
       false;  ///< adds a share of what all others ask of the motor, and is no part of that
   bool extends = false;  ///< the form before it in the row, by its last shape
@@ -95,6 +96,7 @@ struct CauseRow {
   std::string_view coordinate;
   std::vector<CauseForm> forms;
   std::optional<BaselinePart> part = {};  ///< without: a cause
+  std::string_view outside = {};          ///< the catalogue: what it is in words, never a name
 
   bool of_baseline() const { return part.has_value(); }
 };
@@ -108,6 +110,10 @@ std::span<const CauseRow> written_causes();
 
 /// What the baseline has where recordings ask for it, one file each in studies/diagnosis/parts.
 std::span<const CauseRow> baseline_parts();
+
+/// What is in no catalogue of effects and would be taken for what is: it stands in the model
+/// without a name. One file each in studies/diagnosis/outside.
+std::span<const CauseRow> outside_causes();
 
 /// The first equation of the frame that a form acts on.
 Equation first_equation(const Frame& frame, const CauseForm& form);

@@ -183,6 +183,19 @@ double share_of_torque(const Frame& frame, const DriveModel& model, const Refere
   return size;
 }
 
+double change_of_torque(const Frame& frame, const CauseForm& form, const ModelFit& with,
+                        const ModelFit& without) {
+  double change = 0.0;
+  for (Equation equation : form.at) {
+    if (!frame.has(equation)) continue;
+    const std::size_t e = index_of(equation);
+    const ArrayXd part = with.prediction[e] - without.prediction[e];
+    change =
+        std::max(change, (part.abs() * frame.usable).maxCoeff() / frame.largest_torque(equation));
+  }
+  return change;
+}
+
 std::vector<Equation> equations_touched(const Frame& frame,
                                         const std::vector<ActiveCause>& causes) {
   std::set<Equation> touched;

@@ -75,6 +75,11 @@ Eigen::ArrayXd contribution(const Frame& frame, const DriveModel& model, const R
 double share_of_torque(const Frame& frame, const DriveModel& model, const Reference& reference,
                        std::size_t cause);
 
+/// The largest difference of two fits' predictions in the equations of a form, over the largest
+/// torque of its equation, over usable rows.
+double change_of_torque(const Frame& frame, const CauseForm& form, const ModelFit& with,
+                        const ModelFit& without);
+
 /// Equations that the causes act on, closed under links between them.
 std::vector<Equation> equations_touched(const Frame& frame, const std::vector<ActiveCause>& causes);
 

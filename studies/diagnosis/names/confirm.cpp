@@ -16,16 +16,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // What is read from the final model beside a cause's proof.
 void complete(const Frame& frame, Selection& s, Proof& proof) {
-  if (s.accepted.empty()) return;
-  const auto evidence = left_to_tables(frame, s.final);
+  take_left_over(frame, s.final, s, proof);
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    double most = 0.0;
-    for (Equation at : s.accepted[i].trial.cause.form->at) {
-      most = std::max(most, evidence[index_of(at)]);
-    }
-    NameEvidence& name = proof.causes[i].name;
-    name.left_over = most / (0.5 * s.accepted[i].trial.gain);
-    name.alternatives = alternatives_of(s.accepted[i], s).size();
+    const std::size_t place = s.final.fit.model.causes.size() - s.accepted.size() + i;
+    s.accepted[i].trial.size = share_of_torque(frame, s.final.fit.model, s.final.reference, place);
+    proof.causes[i].name.alternatives = alternatives_of(s.accepted[i], s).size();
     s.accepted[i].probability = probability_of(proof.causes[i]);
   }
 }
@@ -129,9 +124,23 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
   for (const Trial& t : accepted.rivals) {
     const bool named = std::ranges::any_of(
         s.accepted, [&](const Accepted& a) { return a.trial.cause.row == t.cause.row; });
-    if (!named && ids.size() < kMostAlternatives) ids.emplace_back(t.cause.row->id);
+    if (!named && t.cause.row->outside.empty() && ids.size() < kMostAlternatives)
+      ids.emplace_back(t.cause.row->id);
   }
   return ids;
+}
+
+void take_left_over(const Frame& frame, const Findings& findings, const Selection& s,
+                    Proof& proof) {
+  if (proof.causes.empty()) return;
+  const auto evidence = left_to_tables(frame, findings);
+  for (std::size_t i = 0; i < proof.causes.size(); ++i) {
+    const Trial& trial = s.accepted[i].trial;
+    double most = 0.0;
+    for (Equation at : trial.cause.form->at) most = std::max(most, evidence[index_of(at)]);
+    NameEvidence& name = proof.causes[i].name;
+    name.left_over = std::max(name.left_over, most / (0.5 * trial.gain));
+  }
 }
 
 Result<Proof> confirm(const Frame& frame, const Limits& limits, Selection& s) {

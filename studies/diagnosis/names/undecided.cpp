@@ -53,6 +53,18 @@ bool may_be_large(const Frame& frame, const CauseForm& form) {
   return form.friction || form.trails || (form.transform != nullptr && frame.travels);
 }
 
+// What moves has a mass: less of it than half of what is stated says that the acceleration or the
+// torque is none.
+std::optional<SanityFinding> takes_away(const Frame& frame, const Accepted& accepted,
+                                        const Eigen::VectorXd& a, const Limits& limits) {
+  const auto stated = accepted.trial.cause.form->stated;
+  if (stated == nullptr || !(a[0] < -limits.half * frame.*stated)) return std::nullopt;
+  if (!(frame.*stated > 0.0)) return std::nullopt;
+  return finding(
+      *accepted.trial.cause.row,
+      fmt::format("{:.3g} kg m2 beside the {:.3g} that are stated", a[0], frame.*stated));
+}
+
 std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accepted,
                                        const Limits& limits) {
   const Trial& trial = accepted.trial;
@@ -118,6 +130,8 @@ std::vector<SanityFinding> implausible(const Frame& frame, const Selection& s,
     const auto& a = s.final.fit.model.coefficients[s.immaterial.size() + i];
     if (auto gain = rescaled(s.accepted[i], a, limits)) {
       list.push_back(std::move(*gain));
+    } else if (auto mass = takes_away(frame, s.accepted[i], a, limits)) {
+      list.push_back(std::move(*mass));
     } else if (auto large = too_large(frame, s.accepted[i], limits)) {
       list.push_back(std::move(*large));
     }

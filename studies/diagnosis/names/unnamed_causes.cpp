@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/names/confirm.hpp"
 #include "diagnosis/names/undecided.hpp"
 #include "diagnosis/search/explanation.hpp"
 
@@ -13,7 +14,8 @@ std::size_t put_improbable_last(Selection& s, Proof& proof, const Limits& limits
   DriveModel& model = s.final.fit.model;
   std::size_t named = s.accepted.size();
   for (std::size_t i = s.accepted.size(); i-- > 0;) {
-    s.accepted[i].probability = probability_of(proof.causes[i]);
+    const bool outside = !s.accepted[i].trial.cause.row->outside.empty();
+    s.accepted[i].probability = outside ? 0.0 : probability_of(proof.causes[i]);
     if (s.accepted[i].probability >= limits.probability) continue;
     const auto to_the_end = [&](auto& list, std::size_t at) {
       const auto first = list.begin() + static_cast<std::ptrdiff_t>(at);
@@ -57,26 +59,33 @@ void take_misfit(Selection& s, Selection named) {
 
 Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Selection& s,
                                     Proof proof) {
-  const std::size_t count = put_improbable_last(s, proof, limits);
-  if (count == s.accepted.size()) {
-    locate_misfit(frame, limits, s);
-    return proof;
-  }
-  auto named = first_causes(frame, limits, s, count);
-  if (!named) return tl::unexpected(named.error());
-  auto proof_of_named = prove(frame, *named, limits.threads);
-  if (!proof_of_named) return proof_of_named;
-  const bool left = named->remainder || is_beyond_noise(frame, proof_of_named->holdout, limits);
-  const bool stay = left && implausible(frame, s, limits).empty();
-  proof.causes.resize(count);
-  if (stay) {
+  std::size_t count = put_improbable_last(s, proof, limits);
+  while (count < s.accepted.size()) {
+    auto named = first_causes(frame, limits, s, count);
+    if (!named) return tl::unexpected(named.error());
+    auto proof_of_named = prove(frame, *named, limits.threads);
+    if (!proof_of_named) return proof_of_named;
+    proof_of_named->causes.assign(proof.causes.begin(), proof.causes.begin() + count);
+    const bool left = named->remainder || is_beyond_noise(frame, proof_of_named->holdout, limits);
+    if (!left || !implausible(frame, s, limits).empty()) {
+      s = std::move(*named);
+      return proof_of_named;
+    }
+    // What only a form without a name follows is left over beside the names.
+    take_left_over(frame, named->final, s, *proof_of_named);
+    std::ranges::copy(proof_of_named->causes, proof.causes.begin());
+    const std::size_t fewer = put_improbable_last(s, proof, limits);
+    if (fewer < count) {
+      count = fewer;
+      continue;
+    }
+    proof.causes.resize(count);
     take_names(s, count);
     take_misfit(s, std::move(*named));
     return proof;
   }
-  s = std::move(*named);
-  proof_of_named->causes = std::move(proof.causes);
-  return proof_of_named;
+  locate_misfit(frame, limits, s);
+  return proof;
 }
 
 }  // namespace flexspline::studies

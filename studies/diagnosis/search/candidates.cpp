@@ -50,19 +50,6 @@ int parameters_of(const ActiveCause& cause, const ModelFit& fit) {
   return std::max(count, 1);
 }
 
-// What the baseline does not take back of a cause.
-double change_of(const Frame& frame, const Findings& findings, const Trial& trial) {
-  double change = 0.0;
-  for (Equation equation : trial.cause.form->at) {
-    if (!frame.has(equation)) continue;
-    const std::size_t e = index_of(equation);
-    const ArrayXd part = trial.fit.prediction[e] - findings.fit.prediction[e];
-    change =
-        std::max(change, (part.abs() * frame.usable).maxCoeff() / frame.largest_torque(equation));
-  }
-  return change;
-}
-
 double effective_rows(const Frame& frame, const Findings& findings, const CauseForm& form) {
   double rows = 0.0;
   for (Equation e : form.at) {
@@ -150,7 +137,7 @@ Trial judged(const Frame& frame, const Findings& findings, ModelFit fit, std::si
   trial.removed = misfit > 0.0 ? std::clamp(trial.gain / misfit, 0.0, 1.0) : kNotComputed;
   trial.size = share_of_torque(frame, trial.fit.model, findings.reference,
                                trial.fit.model.causes.size() - 1);
-  trial.change = change_of(frame, findings, trial);
+  trial.change = change_of_torque(frame, *trial.cause.form, trial.fit, findings.fit);
   return trial;
 }
 
@@ -173,7 +160,7 @@ std::size_t searchers(unsigned wanted) {
 std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings,
                                    Neighbourhood& near, unsigned threads) {
   std::vector<FirstLook> looks;
-  for (const auto rows : {causes(), baseline_parts()}) {
+  for (const auto rows : {causes(), baseline_parts(), outside_causes()}) {
     for (const CauseRow& row : rows) {
       const bool present = std::ranges::any_of(findings.fit.model.causes,
                                                [&](const ActiveCause& c) { return c.row == &row; });

@@ -62,7 +62,10 @@ Result<Worth> worth_of_each(const Frame& frame, Selection& s, unsigned threads) 
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     if (!fits[i]) return tl::unexpected(fits[i].error());
     worth.loss.push_back(chi_square_rise(frame, s.final, *fits[i]));
-    s.accepted[i].trial.gain = worth.loss.back();
+    Trial& trial = s.accepted[i].trial;
+    trial.gain = worth.loss.back();
+    trial.size = share_of_torque(frame, s.final.fit.model, s.final.reference, i);
+    trial.change = change_of_torque(frame, *trial.cause.form, s.final.fit, *fits[i]);
     worth.without.push_back(std::move(*fits[i]));
   }
   return worth;
@@ -94,8 +97,12 @@ bool stays(const Frame& frame, const Limits& limits, const Selection& s, const W
 Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
                   const Worth& worth) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
-    if (is_no_part(*s.accepted[i].trial.cause.row, s.final.fit.model.coefficients[i])) {
+    const Trial& trial = s.accepted[i].trial;
+    if (is_no_part(*trial.cause.row, s.final.fit.model.coefficients[i])) {
       return {i, "it is more than a part of the baseline"};
+    }
+    if (!trial.cause.row->of_baseline() && is_taken_up(trial, limits)) {
+      return {i, "the baseline and the others take most of it back"};
     }
   }
   std::vector<std::size_t> order(worth.loss.size());

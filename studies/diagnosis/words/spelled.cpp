@@ -86,12 +86,7 @@ void add_round(const Accepted& a, int round, const Limits& limits,
 }
 
 std::string why_immaterial(const Trial& trial, const Limits& limits) {
-  if (trial.size < limits.interest) {
-    return fmt::format("there, but {:.2g} % of torque is too small to be named",
-                       100.0 * trial.size);
-  }
-  return fmt::format("there, but a gain of {:.3g} in chi square is too small to be named",
-                     trial.net_gain);
+  return fmt::format("there, but {} is too small to be named", how_small(trial, limits));
 }
 
 // So that the intervals hold those of others, or where these have none their values.
@@ -141,6 +136,11 @@ class BothSprings {
 };
 
 }  // namespace
+
+std::string how_small(const Trial& trial, const Limits& limits) {
+  if (trial.size < limits.interest) return fmt::format("{:.2g} % of torque", 100.0 * trial.size);
+  return fmt::format("a gain of {:.3g} in chi square", trial.net_gain);
+}
 
 double p_value(double chi_square, int parameters) {
   constexpr double kLargest = 1200.0;

@@ -10,6 +10,9 @@ namespace flexspline::studies {
 /// Probability that noise alone gains that much by so many parameters, 1e-12 at least.
 double p_value(double chi_square, int parameters);
 
+/// Of a cause that is in the model and too small to be named: by what.
+std::string how_small(const Trial& trial, const Limits& limits);
+
 /// The parts of a diagnosis that a person reads, from the numbers of the search.
 std::string baseline_in_words(const Frame& frame);
 /// What recordings asked of the baseline beyond that.

@@ -76,8 +76,11 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s, c
   for (const Accepted& a : s.unnamed) {
     if (listed(list, a.trial.cause.row->coordinate)) continue;
     list.push_back(explained(frame, s, a));
-    list.back().says += fmt::format("what has the form of {}, a name of probability {:.2g}",
-                                    a.trial.cause.row->id, a.probability);
+    const CauseRow& row = *a.trial.cause.row;
+    list.back().says += row.outside.empty()
+                            ? fmt::format("what has the form of {}, a name of probability {:.2g}",
+                                          row.id, a.probability)
+                            : fmt::format("what is outside the catalogue: {}", row.outside);
   }
   if (resonance) {
     list.push_back(at_worst(frame, s.final, resonance->equation));

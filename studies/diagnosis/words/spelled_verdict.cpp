@@ -32,7 +32,9 @@ std::string names_in_words(const std::vector<Cause>& causes) {
 std::string part_in_words(const std::vector<Accepted>& unnamed) {
   std::vector<std::string> forms;
   for (const Accepted& a : unnamed) {
-    forms.push_back(fmt::format("{} (p = {:.2g})", a.trial.cause.row->id, a.probability));
+    const CauseRow& row = *a.trial.cause.row;
+    forms.push_back(row.outside.empty() ? fmt::format("{} (p = {:.2g})", row.id, a.probability)
+                                        : fmt::format("{} (outside the catalogue)", row.outside));
   }
   return fmt::format("a part whose name is uncertain, in the form of {},", listed(forms));
 }

@@ -1,0 +1,93 @@
+// What is in no catalogue of effects: in the model, never a name.
+#include <algorithm>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/model/cause.hpp"
+#include "diagnosis_checks.hpp"
+#include "flexspline/core/effect.hpp"
+
+namespace flexspline::studies {
+namespace {
+
+using Eigen::ArrayXd;
+
+const CauseForm& form_of(std::string_view id) {
+  const auto rows = outside_causes();
+  return std::ranges::find(rows, id, &CauseRow::id)->forms.front();
+}
+
+Columns columns_of(const CauseForm& form, Equation equation, const Frame& frame) {
+  Reference reference;
+  reference.elastic = frame.smooth_torque;
+  return form.columns(equation, frame, reference, {});
+}
+
+TEST(OutsideCauses, AreNoEffectsAndStandInNoModelFile) {
+  ASSERT_FALSE(outside_causes().empty());
+  for (const CauseRow& row : outside_causes()) {
+    EXPECT_FALSE(row.outside.empty()) << row.id;
+    EXPECT_FALSE(find_effect(row.id)) << row.id;
+    for (const CauseForm& form : row.forms) {
+      EXPECT_EQ(form.counterpart, nullptr) << row.id;
+      EXPECT_FALSE(form.no_counterpart.empty()) << row.id;
+    }
+  }
+}
+
+// J theta_l'' and f(phi) are read with the same error; the motor's equation takes the reading off
+// over the ratio.
+TEST(OutsideCauses, OfATorqueSensorAreTheSameReadingInEveryEquation) {
+  const Frame frame = closed_form_frame();
+  for (const char* id : {"torque_sensor_memory", "torque_sensor_curvature"}) {
+    const CauseForm& form = form_of(id);
+    const auto torsion = columns_of(form, Equation::torsion, frame);
+    const auto load = columns_of(form, Equation::load, frame);
+    const auto motor = columns_of(form, Equation::motor, frame);
+    for (std::size_t k = 0; k < torsion.size(); ++k) {
+      EXPECT_GT(torsion[k].abs().maxCoeff(), 0.0) << id;
+      EXPECT_TRUE((torsion[k] == load[k]).all()) << id;
+      EXPECT_LT((motor[k] * frame.ratio + torsion[k]).abs().maxCoeff(), 1e-12) << id;
+    }
+  }
+}
+
+// The stop operator of a torque that reverses within its reach is that torque less where it began;
+// beyond its reach it holds no more than that.
+TEST(OutsideCauses, AMemoryHoldsBackAsMuchAsItsReach) {
+  const Frame frame = closed_form_frame();
+  const CauseForm& form = form_of("torque_sensor_memory");
+  const auto terms = form.terms(frame);
+  const auto columns = columns_of(form, Equation::load, frame);
+  ASSERT_EQ(columns.size(), terms.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    EXPECT_NEAR(columns[k].abs().maxCoeff(), terms[k].grid_value, 1e-9) << terms[k].name;
+  }
+}
+
+// Of a torque that takes every value alike neither has a part of an offset or a gain.
+TEST(OutsideCauses, ACurveHasNoPartOfALine) {
+  Frame frame = closed_form_frame(4001 * 2);
+  frame.smooth_torque = ArrayXd::LinSpaced(8002, -40.0, 40.0);
+  for (const ArrayXd& column :
+       columns_of(form_of("torque_sensor_curvature"), Equation::load, frame)) {
+    EXPECT_NEAR(column.mean(), 0.0, 0.02);
+    EXPECT_NEAR((column * frame.smooth_torque).mean() / 40.0, 0.0, 0.02);
+    EXPECT_NEAR(column.abs().maxCoeff(), 40.0, 1e-9);
+  }
+}
+
+// Hysteresis of the sensor, which the gear's own was named for.
+TEST(OutsideCauses, AFreeDrivesSensorWithPlayIsUnexplained) {
+  const auto hidden = drawn_case(Rig::free, 51, {{"unknown:sensor_play", 0.08}});
+  const Diagnosis d = diagnosed(hidden.recordings);
+  EXPECT_TRUE(d.causes.empty()) << names(d).front();
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.says;
+  EXPECT_NE(d.says.find("outside the catalogue"), std::string::npos) << d.says;
+  EXPECT_LT(d.holdout.ratio, 0.5) << "it is in the model";
+}
+
+}  // namespace
+}  // namespace flexspline::studies
