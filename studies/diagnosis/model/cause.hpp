@@ -68,6 +68,7 @@ struct CauseForm {
   bool nonnegative = false;         ///< a_k >= 0
   bool friction = false;            ///< resists the motion across the transmission, beside g^-1
   bool rescales = false;            ///< a channel, by 1 + a or 1 - a, and does nothing else
+  bool unbounded = false;           ///< may be most of a torque: nothing that is stated bounds it
   double Frame::*stated = nullptr;  ///< the rig's constant to which the coefficient adds
   bool trails =
       false;  ///< adds a share of what all others ask of the motor, and is no part of that

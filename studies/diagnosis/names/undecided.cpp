@@ -47,10 +47,12 @@ std::optional<SanityFinding> rescaled(const Accepted& accepted, const Eigen::Vec
   return found;
 }
 
-// Friction may be all of a specimen's torque, a joint whose torque is late has twice its friction
-// the wrong way round at every reversal, and a motor that is late and kicked lacks the kick.
+// Friction and what a joint carries may be most of a torque, a joint whose torque is late has twice
+// its friction the wrong way round at every reversal, and a motor that is late and kicked lacks the
+// kick.
 bool may_be_large(const Frame& frame, const CauseForm& form) {
-  return form.friction || form.trails || (form.transform != nullptr && frame.travels);
+  return form.friction || form.unbounded || form.trails ||
+         (form.transform != nullptr && frame.travels);
 }
 
 // What moves has a mass: less of it than half of what is stated says that the acceleration or the

@@ -48,6 +48,12 @@ std::optional<std::size_t> shadow_on(const Frame& frame, const Selection& s, std
   return std::nullopt;
 }
 
+// What grew after it was accepted, as something came to counteract it.
+bool is_mostly_taken_back(const Trial& trial, const Limits& limits) {
+  return !trial.cause.row->of_baseline() && trial.cause.form->transform == nullptr &&
+         trial.size >= limits.half && trial.change < limits.half * trial.size;
+}
+
 /// What each accepted cause is worth beside the others.
 struct Worth {
   std::vector<ModelFit> without;  ///< the model without it
@@ -101,7 +107,7 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
     if (is_no_part(*trial.cause.row, s.final.fit.model.coefficients[i])) {
       return {i, "it is more than a part of the baseline"};
     }
-    if (!trial.cause.row->of_baseline() && is_taken_up(trial, limits)) {
+    if (is_mostly_taken_back(trial, limits)) {
       return {i, "the baseline and the others take most of it back"};
     }
   }
