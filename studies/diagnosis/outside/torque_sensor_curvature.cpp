@@ -6,13 +6,13 @@ namespace {
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
-// Legendre's second and third polynomials of the torque over its largest value: what a gain and an
-// offset have no part of.
+// The square, as a sensor is set to zero where nothing pulls, and Legendre's third polynomial, of
+// which a gain has no part, as it is set to the best line.
 Columns curved(Equation equation, const Frame& f, const Reference&, Values) {
   const double largest = f.smooth_torque.abs().maxCoeff();
   const ArrayXd x = f.smooth_torque / largest;
-  return of_torque_signal(
-      equation, f, {largest * (1.5 * x.square() - 0.5), largest * (2.5 * x.square() - 1.5) * x});
+  return of_torque_signal(equation, f,
+                          {largest * x.square(), largest * (2.5 * x.square() - 1.5) * x});
 }
 
 std::vector<Term> terms(const Frame&) {
@@ -28,7 +28,7 @@ bool told_by_inertia(const Frame& f) { return f.has(Equation::torsion) && f.has(
 CauseRow describe_torque_sensor_curvature() {
   return {.id = "torque_sensor_curvature",
           .coordinate = "load",
-          .forms = {{.equation = "tau_measured = tau + T (a P2(tau/T) + b P3(tau/T))",
+          .forms = {{.equation = "tau_measured = tau + T (a x^2 + b (5 x^3 - 3 x)/2), x = tau/T",
                      .rigs = {Rig::free},
                      .at = {Equation::torsion, Equation::load, Equation::motor},
                      .terms = terms,
