@@ -139,7 +139,7 @@ void take_left_over(const Frame& frame, const Findings& findings, const Selectio
     double most = 0.0;
     for (Equation at : trial.cause.form->at) most = std::max(most, evidence[index_of(at)]);
     NameEvidence& name = proof.causes[i].name;
-    name.left_over = std::max(name.left_over, most / (0.5 * trial.gain));
+    name.left_over = std::max(most / (0.5 * trial.gain), name.left_over);  // NaN stays
   }
 }
 

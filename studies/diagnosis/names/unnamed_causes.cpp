@@ -65,7 +65,8 @@ Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Se
     if (!named) return tl::unexpected(named.error());
     auto proof_of_named = prove(frame, *named, limits.threads);
     if (!proof_of_named) return proof_of_named;
-    proof_of_named->causes.assign(proof.causes.begin(), proof.causes.begin() + count);
+    proof_of_named->causes.assign(proof.causes.begin(),
+                                  proof.causes.begin() + static_cast<std::ptrdiff_t>(count));
     const bool left = named->remainder || is_beyond_noise(frame, proof_of_named->holdout, limits);
     if (!left || !implausible(frame, s, limits).empty()) {
       s = std::move(*named);
