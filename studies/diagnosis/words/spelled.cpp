@@ -237,9 +237,12 @@ std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& lim
   }
   for (const Accepted& a : s.accepted) add_round(a, ++round, limits, list);
   for (const Accepted& a : s.unnamed) {
-    list.push_back(
-        tried(a.trial, ++round,
-              fmt::format("in the model without its name, of probability {:.2g}", a.probability)));
+    const std::string_view outside = a.trial.cause.row->outside;
+    list.push_back(tried(
+        a.trial, ++round,
+        outside.empty()
+            ? fmt::format("in the model without its name, of probability {:.2g}", a.probability)
+            : fmt::format("in the model, outside the catalogue: {}", outside)));
   }
   for (const Accepted& a : s.withdrawn) add_round(a, ++round, limits, list);
   ++round;
