@@ -92,7 +92,7 @@ EffectRow wobble(Site site) {
 Reference reference(const Frame& f) {
   Reference known;
   known.motor_sign = rounded_sign(f.motor_speed, 2.0);
-  known.torsion_coulomb_rate = 1e-3;
+  known.torsion_sign = {{1.0, 1e-3}};
   return known;
 }
 
@@ -152,7 +152,7 @@ TEST(CauseByLaw, SplitsAPhaseIntoSineAndCosineAndPutsItTogetherAgain) {
   ASSERT_EQ(columns.size(), 2U);
   EXPECT_EQ(form.terms(f).size(), 2U);
   const Eigen::VectorXd b = Eigen::Vector2d(0.3, -0.4);
-  const Counterpart made = form.counterpart({f, {}, b, {}, 1.0, 0.0});
+  const Counterpart made = form.counterpart({f, {}, b, {}, {}, 0.0});
   ASSERT_EQ(made.effects.size(), 1U);
   const auto& p = made.effects[0].parameters;
   EXPECT_EQ(p[0].first, "amplitude");

@@ -50,8 +50,9 @@ Counterpart gear_halves(const FittedCause& c) {
       .effects = {{"direction_asymmetry",
                    {{"coulomb_difference", c.coefficients[0] * c.slipping},
                     {"viscous_difference", c.coefficients[1] / c.frame.rate_range},
-                    {"smoothing",
-                     c.slipping > 0.0 ? c.torsion_coulomb_rate : 1e-6 * c.frame.rate_range}}}},
+                    {"smoothing", c.slipping > 0.0
+                                      ? std::ranges::max(c.torsion_sign, {}, &SignPart::share).width
+                                      : 1e-6 * c.frame.rate_range}}}},
       .side_difference = c.coefficients[0]};
   if (c.slipping > 0.0) {
     counterpart.caveat =

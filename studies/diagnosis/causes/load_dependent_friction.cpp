@@ -12,7 +12,7 @@ Columns at_motor(Equation, const Frame& f, const Reference& known, Values) {
 }
 
 Columns across(Equation, const Frame& f, const Reference& known, Values) {
-  return {known.elastic.abs() * rounded_sign(f.torsion_rate, known.torsion_coulomb_rate)};
+  return {known.elastic.abs() * rounded_sign(f.torsion_rate, known.torsion_sign)};
 }
 
 // Beyond a small part of the range it would be a spring's.
@@ -28,13 +28,17 @@ Columns across_with_memory(Equation, const Frame& f, const Reference& known, Val
   return c;
 }
 
+std::vector<EffectSpec> friction_by(const FittedCause& c, std::span<const SignPart> sign) {
+  return by_sign_part(sign, "load_dependent_friction", [&](double share, double width) {
+    return std::vector<std::pair<std::string, double>>{
+        {"coefficient", share * c.coefficients[0]},
+        {"smoothing", width},
+        {"load_smoothing", 1e-6 * c.frame.torque_range}};
+  });
+}
+
 Counterpart motor_friction(const FittedCause& c) {
-  return {.effects = by_sign_part(c, "load_dependent_friction", [&](double share, double width) {
-            return std::vector<std::pair<std::string, double>>{
-                {"coefficient", share * c.coefficients[0]},
-                {"smoothing", width},
-                {"load_smoothing", 1e-6 * c.frame.torque_range}};
-          })};
+  return {.effects = friction_by(c, c.motor_sign)};
 }
 
 constexpr std::string_view kOfAllTorque =
@@ -42,11 +46,7 @@ constexpr std::string_view kOfAllTorque =
     "torque's share";
 
 Counterpart gear_friction(const FittedCause& c) {
-  return {.effects = {{"load_dependent_friction",
-                       {{"coefficient", c.coefficients[0]},
-                        {"smoothing", c.torsion_coulomb_rate},
-                        {"load_smoothing", 1e-6 * c.frame.torque_range}}}},
-          .caveat = std::string(kOfAllTorque)};
+  return {.effects = friction_by(c, c.torsion_sign), .caveat = std::string(kOfAllTorque)};
 }
 
 Counterpart gear_friction_with_memory(const FittedCause& c) {

@@ -23,12 +23,12 @@ Columns at_motor(Equation, const Frame& f, const Reference& known, Values) {
 bool ripples(double order) { return order == 1.0 || order == 2.0; }
 
 Columns at_joint(Equation, const Frame& f, const Reference& known, Values) {
-  return turns(f.motor_angle, rounded_sign(f.torsion_rate, known.torsion_coulomb_rate));
+  return turns(f.motor_angle, rounded_sign(f.torsion_rate, known.torsion_sign));
 }
 
 // What a joint shows along its travel: two harmonics of twice the travel.
 Columns along_travel(Equation, const Frame& f, const Reference& known, Values) {
-  const ArrayXd sign = rounded_sign(f.torsion_rate, known.torsion_coulomb_rate);
+  const ArrayXd sign = rounded_sign(f.torsion_rate, known.torsion_sign);
   const double low = f.torsion.minCoeff();
   const ArrayXd u = 3.14159265358979323846 * (f.torsion - low) / (f.torsion.maxCoeff() - low);
   return {u.cos() * sign, (2.0 * u).cos() * sign, (3.0 * u).cos() * sign};
@@ -57,7 +57,8 @@ Counterpart motor_waves(const FittedCause& c) {
 
 Counterpart joint_waves(const FittedCause& c) {
   EffectSpec effect{"position_dependent_friction", {}};
-  add_turns(effect, c.coefficients, c.frame.ratio, {1.0, c.torsion_coulomb_rate});
+  for (const SignPart& part : c.torsion_sign)
+    add_turns(effect, c.coefficients, c.frame.ratio, part);
   return {.effects = {std::move(effect)}};
 }
 
@@ -67,9 +68,10 @@ Counterpart travel_waves(const FittedCause& c) {
   const double half_turn = std::numbers::pi / (c.frame.torsion.maxCoeff() - low);
   for (Eigen::Index k = 0; k < c.coefficients.size(); ++k) {
     const double order = half_turn * (static_cast<double>(k) + 1.0);
-    const double a = c.coefficients[k];
-    add_wave(effect, order, a * std::sin(order * low), a * std::cos(order * low),
-             c.torsion_coulomb_rate);
+    for (const SignPart& part : c.torsion_sign) {
+      const double a = part.share * c.coefficients[k];
+      add_wave(effect, order, a * std::sin(order * low), a * std::cos(order * low), part.width);
+    }
   }
   return {.effects = {std::move(effect)}};
 }

@@ -26,13 +26,14 @@ Columns across(Equation, const Frame& f, const Reference& known, Values shape) {
 
 Counterpart motor_warms(const FittedCause& c) {
   Counterpart counterpart{
-      .effects = by_sign_part(c, "thermal_friction_drift", [&](double share, double width) {
-        return std::vector<std::pair<std::string, double>>{
-            {"coulomb", share * c.coefficients[0]},
-            {"viscous", share * c.coefficients[1] / c.frame.speed_range},
-            {"time_constant", c.shape[0]},
-            {"smoothing", width}};
-      })};
+      .effects =
+          by_sign_part(c.motor_sign, "thermal_friction_drift", [&](double share, double width) {
+            return std::vector<std::pair<std::string, double>>{
+                {"coulomb", share * c.coefficients[0]},
+                {"viscous", share * c.coefficients[1] / c.frame.speed_range},
+                {"time_constant", c.shape[0]},
+                {"smoothing", width}};
+          })};
   counterpart.caveat = kSessionClock;
   return counterpart;
 }

@@ -25,8 +25,7 @@ constexpr Index kDryWidths = 7;
 constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
 constexpr double kWidest = 0.1;
 constexpr double kFree = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kRoundings = 5;    // of a sign, each three times as wide as the one before
-constexpr double kSharpest = 1.0 / 3.0;  // of them, over the sign's rate
+constexpr std::size_t kTravelWidths = 10;  // each twice the one before: to half the largest rate
 
 std::vector<double> even_knots(int count) {
   std::vector<double> knots;
@@ -132,10 +131,10 @@ BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) 
   return c;
 }
 
-BaselineColumns travelling_columns(const Frame& frame, std::span<const double> shape) {
+BaselineColumns travelling_columns(const Frame& frame) {
   const CubicBasis position(frame.lowest, frame.highest, kTravelIntervals);
   const Index f = static_cast<Index>(position.size());
-  const auto widths = travelling_widths(shape);
+  const auto widths = travelling_widths(frame);
   const Index g = static_cast<Index>(widths.size()) + 1;
   BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g,
                     MatrixXd::Zero(f - 1, f + g)};
@@ -147,11 +146,11 @@ BaselineColumns travelling_columns(const Frame& frame, std::span<const double> s
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  // Each width is a third of the next: tanh(3u) = t (3 + t^2)/(1 + 3 t^2), t = tanh(u).
+  // Each width is half of the next: tanh(2u) = 2t/(1 + t^2), t = tanh(u).
   ArrayXd sign = rounded_sign(frame.torsion_rate, widths.back());
   for (Index k = g - 2; k >= 0; --k) {
     c.columns.col(f + k) = sign;
-    sign *= (3.0 + sign.square()) / (1.0 + 3.0 * sign.square());
+    sign *= 2.0 / (1.0 + sign.square());
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   return c;
@@ -178,7 +177,7 @@ BaselineColumns motor_columns(const Frame& frame) {
 BaselineColumns before_a_filter(const Frame& frame, Equation equation,
                                 std::span<const double> shape) {
   if (equation == Equation::torsion) {
-    return frame.travels ? travelling_columns(frame, shape) : gear_columns(frame, shape);
+    return frame.travels ? travelling_columns(frame) : gear_columns(frame, shape);
   }
   if (equation == Equation::load)
     return {frame.load_speed, Eigen::VectorXd::Zero(1), 0, 1, MatrixXd(0, 1)};
@@ -202,16 +201,11 @@ std::vector<double> dry_widths(const Frame& frame) {
   return widths;
 }
 
-std::vector<double> travelling_widths(std::span<const double> shape) {
+std::vector<double> travelling_widths(const Frame& frame) {
   std::vector<double> widths;
-  double width = kSharpest * std::exp(shape[0]);
-  for (std::size_t k = 0; k < kRoundings; ++k, width *= 3.0) widths.push_back(width);
+  double width = kNarrowest * frame.rate_range;
+  for (std::size_t k = 0; k < kTravelWidths; ++k, width *= 2.0) widths.push_back(width);
   return widths;
-}
-
-double coulomb_width(const Frame& frame, std::span<const double> shape) {
-  if (frame.travels) return std::exp(shape[0]);
-  return std::max(frame.slow_rate, 1e-3 * frame.rate_range);
 }
 
 ArrayXd target_of(const Frame& frame, Equation equation) {

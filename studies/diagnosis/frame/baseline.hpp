@@ -48,10 +48,7 @@ Eigen::Index prior_rows(const Frame& frame, Equation equation);
 /// rad/s.
 std::vector<double> dry_widths(const Frame& frame);
 
-/// The same of an angle that travels, rad/s (m/s), about the rate of its shape.
-std::vector<double> travelling_widths(std::span<const double> shape);
-
-/// Rate below which dry friction across the gear is rounded off.
-double coulomb_width(const Frame& frame, std::span<const double> shape);
+/// The same of the dry friction of an angle that travels, rad/s (m/s).
+std::vector<double> travelling_widths(const Frame& frame);
 
 }  // namespace flexspline::studies

@@ -40,4 +40,10 @@ Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, double width) {
   return x.sign() * (1.0 - small) / (1.0 + small);
 }
 
+Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, std::span<const SignPart> parts) {
+  Eigen::ArrayXd sign = Eigen::ArrayXd::Zero(x.size());
+  for (const SignPart& part : parts) sign += part.share * rounded_sign(x, part.width);
+  return sign;
+}
+
 }  // namespace flexspline::studies

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "diagnosis/frame/frame.hpp"
 
 namespace flexspline::studies {
@@ -16,5 +18,14 @@ Eigen::ArrayXd since_reversal(const Frame& frame, const Eigen::ArrayXd& position
 
 /// x/|x| rounded off below the width.
 Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, double width);
+
+/// Part of a sign that is rounded off: share tanh(x/width).
+struct SignPart {
+  double share = 1.0;
+  double width = 1.0;
+};
+
+/// Sum of the parts.
+Eigen::ArrayXd rounded_sign(const Eigen::ArrayXd& x, std::span<const SignPart> parts);
 
 }  // namespace flexspline::studies

@@ -41,12 +41,12 @@ struct Term {
 
 /// What the last fit knows of the baseline's laws along the rows. Nm at the equation's shaft.
 struct Reference {
-  Eigen::ArrayXd elastic;             ///< f(phi)
-  Eigen::ArrayXd dissipative;         ///< g^-1(phi'/h)
-  Eigen::ArrayXd friction;            ///< the same and what causes of the model add to it
-  Eigen::ArrayXd motor_sign;          ///< the motor's dry friction over its largest value
-  Eigen::ArrayXd asked_rate;          ///< rate of the torque that the laws ask of the motor, Nm/s
-  double torsion_coulomb_rate = 1.0;  ///< rad/s (m/s) at which that across the gear saturates
+  Eigen::ArrayXd elastic;              ///< f(phi)
+  Eigen::ArrayXd dissipative;          ///< g^-1(phi'/h)
+  Eigen::ArrayXd friction;             ///< the same and what causes of the model add to it
+  Eigen::ArrayXd motor_sign;           ///< the motor's dry friction over its largest value
+  Eigen::ArrayXd asked_rate;           ///< rate of the torque that the laws ask of the motor, Nm/s
+  std::vector<SignPart> torsion_sign;  ///< the same across the gear, of phi' (rad/s, m/s)
 };
 
 using Columns = std::vector<Eigen::ArrayXd>;

@@ -120,9 +120,12 @@ class Sought {
 
   Counterpart counterpart(const FittedCause& c) const {
     Counterpart made;
-    const bool by_parts = has(Role::sign_width) && at_ == Equation::motor;
-    const std::vector<SignPart> one = {{1.0, own_width_ ? c.shape.back() : c.torsion_coulomb_rate}};
-    for (const SignPart& part : by_parts ? c.motor_sign : std::span<const SignPart>(one))
+    std::vector<SignPart> sign = {{1.0, own_width_ ? c.shape.back() : 1.0}};
+    if (has(Role::sign_width) && !own_width_) {
+      const auto& fitted = at_ == Equation::motor ? c.motor_sign : c.torsion_sign;
+      sign.assign(fitted.begin(), fitted.end());
+    }
+    for (const SignPart& part : sign)
       made.effects.push_back({std::string(effect_->id), fitted(c, part)});
     if (depends_on(*effect_, nominal(), &Instant<Complex>::time)) made.caveat = kSessionClock;
     return made;
@@ -192,9 +195,8 @@ class Sought {
     ArrayXd column = along(f, values);
     if (!has(Role::sign_width) || own_width_) return column;
     const ArrayXd& speed = at_ == Equation::motor ? f.motor_speed : f.torsion_rate;
-    const ArrayXd sign = at_ == Equation::motor
-                             ? known.motor_sign
-                             : rounded_sign(f.torsion_rate, known.torsion_coulomb_rate);
+    const ArrayXd sign = at_ == Equation::motor ? known.motor_sign
+                                                : rounded_sign(f.torsion_rate, known.torsion_sign);
     return column * speed.sign() * sign;
   }
 

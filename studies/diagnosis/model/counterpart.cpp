@@ -14,10 +14,10 @@ Parameters harmonic(double order, double s, double c) {
   return {{"amplitude", std::hypot(s, c)}, {"order", order}, {"phase", std::atan2(c, s)}};
 }
 
-std::vector<EffectSpec> by_sign_part(const FittedCause& fitted, std::string_view effect,
+std::vector<EffectSpec> by_sign_part(std::span<const SignPart> sign, std::string_view effect,
                                      const std::function<Parameters(double, double)>& parameters) {
   std::vector<EffectSpec> effects;
-  for (const SignPart& part : fitted.motor_sign) {
+  for (const SignPart& part : sign) {
     effects.push_back({std::string(effect), parameters(part.share, part.width)});
   }
   return effects;

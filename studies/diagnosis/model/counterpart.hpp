@@ -7,25 +7,19 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/frame/frame.hpp"
+#include "diagnosis/frame/coordinates.hpp"
 #include "flexspline/core/model_spec.hpp"
 
 namespace flexspline::studies {
-
-/// Part of a sign that is rounded off: share tanh(speed/width).
-struct SignPart {
-  double share = 1.0;
-  double width = 0.0;
-};
 
 /// A cause as it was fitted, for its counterpart in the catalogue of effects.
 struct FittedCause {
   const Frame& frame;
   std::span<const double> shape;
   const Eigen::VectorXd& coefficients;
-  std::span<const SignPart> motor_sign;  ///< of the motor's dry friction, shares add up to one
-  double torsion_coulomb_rate = 1.0;     ///< rad/s (m/s)
-  double slipping = 0.0;                 ///< largest friction across the gear beside g^-1, Nm
+  std::span<const SignPart> motor_sign;    ///< of its dry friction; shares add up to one
+  std::span<const SignPart> torsion_sign;  ///< the same across the gear
+  double slipping = 0.0;                   ///< largest friction across the gear beside g^-1, Nm
 };
 
 /// What a cause is in a model file.
@@ -51,9 +45,9 @@ inline constexpr const char* kSessionClock =
 std::vector<std::pair<std::string, double>> amplitude_and_phase(double s, double c);
 std::vector<std::pair<std::string, double>> harmonic(double order, double s, double c);
 
-/// An effect a part of the motor's sign: parameters(share, width).
+/// An effect a part of a sign: parameters(share, width).
 std::vector<EffectSpec> by_sign_part(
-    const FittedCause& fitted, std::string_view effect,
+    std::span<const SignPart> sign, std::string_view effect,
     const std::function<std::vector<std::pair<std::string, double>>(double, double)>& parameters);
 
 }  // namespace flexspline::studies

@@ -8,6 +8,7 @@
 #include "diagnosis/model/cause_columns.hpp"
 #include "diagnosis/model/model_problem.hpp"
 #include "diagnosis/model/motor_sign.hpp"
+#include "diagnosis/model/torsion_sign.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -104,11 +105,7 @@ ArrayXd asked_rate_of(const Frame& frame, const DriveModel& model, const Referen
 
 DriveModel first_guess(const Frame& frame) {
   DriveModel model;
-  if (frame.travels) {
-    model.torsion_shape = {std::log(0.02 * frame.rate_range)};
-  } else {
-    model.torsion_shape = {0.0, 0.0, 0.0};
-  }
+  if (!frame.travels) model.torsion_shape = {0.0, 0.0, 0.0};
   return model;
 }
 
@@ -155,7 +152,7 @@ Reference reference_of(const Frame& frame, const DriveModel& model) {
   reference.dissipative = ArrayXd::Zero(frame.rows());
   reference.friction = reference.dissipative;
   reference.motor_sign = motor_sign(frame, model);
-  reference.torsion_coulomb_rate = coulomb_width(frame, model.torsion_shape);
+  reference.torsion_sign = torsion_sign(frame, model);
   take_gear(frame, model, reference);
   reference.asked_rate = asked_rate_of(frame, model, reference);
   return reference;

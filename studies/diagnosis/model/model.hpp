@@ -28,7 +28,7 @@ inline std::size_t index_of(Equation equation) { return static_cast<std::size_t>
 /// theta_l'' + B2 theta_l'; motor tau_m = J1 theta_m'' + B1 theta_m' + tau/N and dry friction, a
 /// mixture of tanh(theta_m'/w).
 struct DriveModel {
-  std::vector<double> torsion_shape;  ///< c1, c2, zero; travelling: ln of the Coulomb rate
+  std::vector<double> torsion_shape;  ///< c1, c2, zero; travelling: none
   std::vector<ActiveCause> causes;
   std::vector<Eigen::VectorXd> own;           ///< linear coefficients of the baseline by equation
   std::vector<Eigen::VectorXd> coefficients;  ///< of each cause

@@ -19,10 +19,8 @@ constexpr double kMostBesideOffset = 0.1;
 constexpr double kFree = -std::numeric_limits<double>::infinity();
 
 std::vector<ShapeBound> baseline_bounds(const Frame& frame, const DriveModel& model) {
+  if (frame.travels) return {};
   const auto& q = model.torsion_shape;
-  if (frame.travels) {
-    return {{q[0], std::log(1e-4 * frame.rate_range), std::log(0.3 * frame.rate_range)}};
-  }
   const double zero = frame.rig == Rig::specimen ? kMostBesideOffset : kMostZeroError;
   return {{q[0], -2.0, 2.0}, {q[1], -2.0, 2.0}, {q[2], -zero, zero}};
 }

@@ -119,7 +119,7 @@ class Specifier {
 
   Counterpart counterpart_of(const ActiveCause& cause, const Eigen::VectorXd& coefficients) const {
     return cause.form->counterpart(
-        {seen_, cause.shape, coefficients, sign_, reference_.torsion_coulomb_rate, slipping_});
+        {seen_, cause.shape, coefficients, sign_, reference_.torsion_sign, slipping_});
   }
 
   /// What a sensor adds to the torque that it reads is in the torque that is read.
@@ -246,7 +246,7 @@ class Specifier {
                         .coefficients = {own[own.size() - 1]},
                         .valid_to = seen_.rate_range};
     spec().h = {.law = "bounded_modulation", .scale = 1.0, .knots = {}, .coefficients = {}};
-    const auto widths = travelling_widths(model_.torsion_shape);
+    const auto widths = travelling_widths(seen_);
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const double coulomb = own[travel + static_cast<Index>(k)];
       if (!(coulomb > 0.0)) continue;
