@@ -62,6 +62,15 @@ TEST(ProbabilityRight, SaysNoMoreThanWasCalibrated) {
   EXPECT_LT(sure, 1.0);
 }
 
+TEST(ProbabilityRight, IsTheMeanOfWhatTheSearchesSay) {
+  NameEvidence name{.ratio = 0.5, .over_noise = 1.1, .before_over_noise = 3.0, .left_over = 0.01};
+  const double alone = probability_right(name);
+  name.in_folds = {alone, alone};
+  EXPECT_DOUBLE_EQ(probability_right(name), alone) << "folds that agree say no more";
+  name.in_folds = {0.0, 0.4, 0.9};
+  EXPECT_DOUBLE_EQ(probability_right(name), (alone + 0.0 + 0.4 + 0.9) / 4.0);
+}
+
 TEST(ProbabilityRight, OfWhatWasNotComputedIsNotANumber) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(probability_right({.ratio = kNaN})));

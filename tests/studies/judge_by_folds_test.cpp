@@ -11,6 +11,7 @@ namespace flexspline::studies {
 namespace {
 
 constexpr Eigen::Index kRows = 4000;
+constexpr double kSaid = 0.9;  // probability that a fold gives the name
 
 class JudgeByFolds : public SearchedDrive {
  protected:
@@ -24,11 +25,11 @@ class JudgeByFolds : public SearchedDrive {
 
   /// A search that found nothing, or all that there is.
   SearchedFold fold(bool finds) const {
-    return {frame_.usable,
-            s_.baseline.fit.residual,
-            finds ? s_.final.fit.residual : s_.baseline.fit.residual,
-            {},
-            {}};
+    SearchedFold fold{frame_.usable, s_.baseline.fit.residual, s_.baseline.fit.residual, {}, {}};
+    if (!finds) return fold;
+    fold.after = s_.final.fit.residual;
+    fold.found = {{{std::string(kHidden)}, kSaid, true}};
+    return fold;
   }
   const NameEvidence& evidence() const { return found_.proof.causes.front().name; }
 
@@ -59,6 +60,31 @@ TEST_F(JudgeByFolds, TheirErrorsOverTheNoiseAreTaken) {
   const auto named = with_probable_names(found_, limits_);
   ASSERT_TRUE(named) << named.error().message();
   EXPECT_EQ(ids(named->selection.accepted), std::vector<std::string_view>{kHidden});
+}
+
+// Folds that predict as well by something else.
+TEST_F(JudgeByFolds, ANameThatTheyDoNotFindIsNoneOfTheirs) {
+  SearchedFold other = fold(true);
+  other.found.front().ids = {"something_else"};
+  SearchedFold unsure = fold(true);
+  unsure.found = {{{"something_else", std::string(kHidden)}, 0.3, false}};
+  judge_by_folds(frame_, {fold(true), other, unsure}, found_);
+  EXPECT_EQ(evidence().in_folds, (std::vector<double>{kSaid, 0.0, 0.3}));
+  judge_by_folds(frame_, {other, other, other}, found_);
+  EXPECT_EQ(evidence().in_folds, (std::vector<double>{0.0, 0.0, 0.0})) << "not of before, too";
+  const auto named = with_probable_names(found_, limits_);
+  ASSERT_TRUE(named) << named.error().message();
+  EXPECT_TRUE(named->selection.accepted.empty());
+}
+
+TEST_F(JudgeByFolds, TheStabilityIsTheShareThatNamesItOrAnAlternative) {
+  NestedProof nested;
+  nested.found = {{{{"a", "b"}, 0.8, true}}, {{{"b"}, 0.4, false}}, {{{"c"}, 0.9, true}}, {}};
+  Cause cause;
+  cause.effect = "a";
+  EXPECT_DOUBLE_EQ(stability_of(nested, cause), 0.25);
+  cause.alternatives = {"c"};
+  EXPECT_DOUBLE_EQ(stability_of(nested, cause), 0.5);
 }
 
 TEST_F(JudgeByFolds, AFoldThatFailedOrHasNotTheEquationJudgesNothing) {

@@ -110,7 +110,7 @@ const std::vector<Row> kDiagnosed = {
     {"real-preload-1", "cycloidal-onyx-split-p1"},
     {"real-preload-6", "cycloidal-onyx-split-p6"},
     {"real-preload-12", "cycloidal-onyx-split-p12"},
-    {"real-damper", "band-damper", {}, "damper-directions", {"direction_asymmetry difference"}},
+    {"real-damper", "band-damper"},
     {"real-joint-1",
      "iiwa-j1",
      {},

@@ -44,13 +44,29 @@ class JointProgress {
   std::vector<double> share_;
 };
 
-std::vector<std::string> named_by(const Finding& finding) {
-  std::vector<std::string> named;
-  for (const Accepted& accepted : finding.selection.accepted) {
-    named.emplace_back(accepted.trial.cause.row->id);
-    std::ranges::copy(alternatives_of(accepted, finding.selection), std::back_inserter(named));
+std::vector<std::string> ids_of(const Accepted& cause, const Selection& selection) {
+  std::vector<std::string> ids = alternatives_of(cause, selection);
+  ids.emplace_back(cause.trial.cause.row->id);
+  return ids;
+}
+
+std::vector<FoundCause> found_by(const Selection& s) {
+  std::vector<FoundCause> found;
+  for (const Accepted& a : s.accepted) found.push_back({ids_of(a, s), a.probability, true});
+  for (const Accepted& a : s.unnamed) found.push_back({ids_of(a, s), a.probability, false});
+  return found;
+}
+
+bool shares_a_name(const FoundCause& found, const std::vector<std::string>& ids) {
+  return std::ranges::find_first_of(found.ids, ids) != found.ids.end();
+}
+
+double probability_in(const SearchedFold& fold, const std::vector<std::string>& ids) {
+  double most = 0.0;
+  for (const FoundCause& one : fold.found) {
+    if (shares_a_name(one, ids)) most = std::max(most, one.probability);
   }
-  return named;
+  return most;
 }
 
 Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
@@ -67,7 +83,7 @@ Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
   if (!judged) return tl::unexpected(judged.error());
   return SearchedFold{std::move(judged->held), std::move(judged->before.residual),
                       std::move(judged->after.residual), std::move(judged->of_motion),
-                      named_by(*finding)};
+                      found_by(finding->selection)};
 }
 
 /// Rows of all folds, and their residuals.
@@ -133,8 +149,12 @@ void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>&
   for (std::size_t i = 0; i < selection.accepted.size(); ++i) {
     const CauseForm& form = *selection.accepted[i].trial.cause.form;
     if (!std::ranges::all_of(form.at, judged)) continue;
-    take_errors(frame, selection.final, form, pool.before, pool.after, held,
-                finding.proof.causes[i].name);
+    NameEvidence& name = finding.proof.causes[i].name;
+    take_errors(frame, selection.final, form, pool.before, pool.after, held, name);
+    name.in_folds.clear();
+    for (const auto& fold : folds) {
+      name.in_folds.push_back(probability_in(*fold, ids_of(selection.accepted[i], selection)));
+    }
   }
 }
 
@@ -147,7 +167,7 @@ Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<Se
     if (!has(*fold, equation)) {
       return failure(ErrorCode::numerics, "the remaining recordings do not have this equation");
     }
-    nested.named.push_back(fold->named);
+    nested.found.push_back(fold->found);
   }
   const Pooled pool = pooled(whole, folds);
   nested.proof =
@@ -157,12 +177,14 @@ Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<Se
 }
 
 double stability_of(const NestedProof& nested, const Cause& cause) {
-  const auto is_named = [&](const std::vector<std::string>& names) {
-    const auto has = [&names](const std::string& id) { return std::ranges::count(names, id) > 0; };
-    return has(cause.effect) || std::ranges::any_of(cause.alternatives, has);
+  std::vector<std::string> ids = cause.alternatives;
+  ids.push_back(cause.effect);
+  const auto is_named = [&](const std::vector<FoundCause>& found) {
+    return std::ranges::any_of(
+        found, [&](const FoundCause& one) { return one.named && shares_a_name(one, ids); });
   };
-  return static_cast<double>(std::ranges::count_if(nested.named, is_named)) /
-         static_cast<double>(nested.named.size());
+  return static_cast<double>(std::ranges::count_if(nested.found, is_named)) /
+         static_cast<double>(nested.found.size());
 }
 
 }  // namespace flexspline::studies

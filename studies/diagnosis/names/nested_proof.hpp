@@ -4,12 +4,19 @@
 
 namespace flexspline::studies {
 
+/// A cause in the model of a search, named or not.
+struct FoundCause {
+  std::vector<std::string> ids;  ///< its own and its alternatives'
+  double probability = 0.0;      ///< that one of these names is right
+  bool named = false;
+};
+
 /// What the whole search finds without one outer fold, and leaves of it.
 struct SearchedFold {
-  Eigen::ArrayXd held;             ///< 1 in each usable row of the fold
-  PerEquation before, after;       ///< residuals of the baseline and of what was found
-  PerEquation of_motion;           ///< torque_of_motion_error() of what was found
-  std::vector<std::string> named;  ///< causes and their alternatives
+  Eigen::ArrayXd held;        ///< 1 in each usable row of the fold
+  PerEquation before, after;  ///< residuals of the baseline and of what was found
+  PerEquation of_motion;      ///< torque_of_motion_error() of what was found
+  std::vector<FoundCause> found;
 };
 
 /// The search in all recordings, and without each outer fold.
@@ -27,15 +34,16 @@ Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, co
                     Eigen::Index most_rows, const DiagnosisProgress& progress);
 
 /// Takes the errors of the whole search on rows that it did not have as evidence of names
-/// (NameEvidence), in place of those of causes that were chosen with these rows in view. Where a
-/// fold lacks one of a cause's equations its evidence stays; where a fold failed all does.
+/// (NameEvidence), in place of those of causes that were chosen with these rows in view, and what
+/// the folds' own searches say of these names. Where a fold lacks one of a cause's equations its
+/// evidence stays; where a fold failed all does.
 void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
                     Finding& finding);
 
 /// What the folds prove together.
 struct NestedProof {
   HoldoutProof proof;
-  std::vector<std::vector<std::string>> named;  ///< by outer fold: causes and their alternatives
+  std::vector<std::vector<FoundCause>> found;  ///< by outer fold
 };
 
 /// In one equation. Errors: those of the folds; numerics, where one of them has no such equation.

@@ -1,6 +1,7 @@
 #include "diagnosis/proof/calibrated.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace flexspline::studies {
 namespace {
@@ -30,7 +31,9 @@ double probability_right(const NameEvidence& e) {
   const double log_odds = kNone + kOfShare * std::log(share) + kOfRest * misfit +
                           kOfLeftOver * std::log(left) +
                           kOfAlternatives * static_cast<double>(e.alternatives);
-  return 1.0 / (1.0 + std::exp(-log_odds));
+  const double of_all = 1.0 / (1.0 + std::exp(-log_odds));
+  return std::accumulate(e.in_folds.begin(), e.in_folds.end(), of_all) /
+         static_cast<double>(1 + e.in_folds.size());
 }
 
 }  // namespace flexspline::studies

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace flexspline::studies {
 
@@ -12,6 +13,9 @@ struct NameEvidence {
   double before_over_noise = 1.0;  ///< of the baseline
   double left_over = 0.0;          ///< CauseEvidence::left_over
   std::size_t alternatives = 0;
+  /// What the search without each outer fold says that it is, 0 of one that did not find it; empty
+  /// where there were no folds.
+  std::vector<double> in_folds = {};
 };
 
 /// Probability that a name is right:
@@ -22,7 +26,9 @@ struct NameEvidence {
 /// are a logistic regression on names that were given on simulated cases of two generators and on
 /// effects added to recordings by others, right and wrong ones (docs/decisions/0037): a frequency
 /// among such cases, of which one in four hides something outside the catalogue or in a single
-/// recording. NaN where a number is.
+/// recording. Where there were outer folds, the mean of this and what their searches say: a
+/// bagged posterior (Huggins and Miller 2020), which does not hang on rows that another recording
+/// of the same drive would not have had. NaN where a number is.
 double probability_right(const NameEvidence& evidence);
 
 }  // namespace flexspline::studies
