@@ -11,6 +11,7 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 constexpr double kRounding = 0.02;  // of the gap: its flanks meet, they do not yield
+constexpr double kGone = 9.0;       // widths, where x exp(-x^2/2) is 2e-17
 
 std::vector<Shape> gap(const Frame& f) {
   return {{.name = "half_gap",
@@ -92,14 +93,17 @@ Columns motor_jumps(Equation, const Frame& f, const Reference&, Values shape) {
   const double unit = f.motor_inertia / (width * width) * std::numbers::inv_sqrtpi / std::sqrt(2.0);
   ArrayXd column = ArrayXd::Zero(f.rows());
   for (const Segment& s : f.segments) {
-    const auto time = f.time.segment(s.first, s.count);
+    const double* const start = f.time.data() + s.first;
+    const double* const end = start + s.count;
     for (Eigen::Index r = s.first; r + 1 < s.first + s.count; ++r) {
       const double before = f.torque[r], after = f.torque[r + 1];
       if (before * after >= 0.0) continue;
       const double at = f.time[r] + before / (before - after) * (f.time[r + 1] - f.time[r]);
-      const ArrayXd x = (time - at) / width;
-      column.segment(s.first, s.count) -=
-          std::copysign(unit, after) * x * (-0.5 * x.square()).exp();
+      const double* const first = std::lower_bound(start, end, at - kGone * width);
+      const double* const last = std::upper_bound(first, end, at + kGone * width);
+      const auto near = Eigen::seqN(first - f.time.data(), last - first);
+      const ArrayXd x = (f.time(near) - at) / width;
+      column(near) -= std::copysign(unit, after) * x * (-0.5 * x.square()).exp();
     }
   }
   return {column};

@@ -59,7 +59,7 @@ Columns ripple_under_current(Equation, const Frame& f, const Reference&, Values 
 // H, what smoothing keeps of an acceleration at s = i k theta': docs/decisions/0032.
 ArrayXd kept(const Frame& f, double order) {
   if (f.motor_bandwidth.size() == 0) return ArrayXd::Ones(f.rows());
-  return 1.0 / (1.0 + (order * f.motor_speed / f.motor_bandwidth).pow(6.0));
+  return 1.0 / (1.0 + (order * f.motor_speed / f.motor_bandwidth).cube().square());
 }
 
 std::vector<Shape> and_loop(std::vector<Shape> shapes, const Frame& f) {

@@ -19,11 +19,22 @@ bool wound_up(const Frame& frame) { return frame.rig != Rig::specimen || !frame.
 
 bool geared(const Frame& frame) { return frame.rig == Rig::free || frame.ratio > 1.0; }
 
-Columns sine_pair(const ArrayXd& x, double order, const ArrayXd& factor) {
-  return {(order * x).sin() * factor, (order * x).cos() * factor};
+// Row by row: sine and cosine of one angle are computed together.
+Columns sine_pair(const ArrayXd& x, double order) {
+  ArrayXd sine(x.size()), cosine(x.size());
+  for (Index r = 0; r < x.size(); ++r) {
+    const double angle = order * x[r];
+    sine[r] = std::sin(angle);
+    cosine[r] = std::cos(angle);
+  }
+  return {std::move(sine), std::move(cosine)};
 }
 
-Columns sine_pair(const ArrayXd& x, double order) { return {(order * x).sin(), (order * x).cos()}; }
+Columns sine_pair(const ArrayXd& x, double order, const ArrayXd& factor) {
+  Columns pair = sine_pair(x, order);
+  for (ArrayXd& column : pair) column *= factor;
+  return pair;
+}
 
 Columns of_torque_signal(Equation equation, const Frame& frame, Columns terms) {
   if (equation != Equation::motor) return terms;
