@@ -18,8 +18,9 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double kInertia = 1.4;  // kg m2
-constexpr double kNoise = 0.03;   // Nm
+constexpr double kInertia = 1.4;   // kg m2
+constexpr double kNoise = 0.03;    // Nm
+constexpr double kWarmUp = 150.0;  // s
 
 /// How late a torque is recorded, s.
 struct Chain {
@@ -28,6 +29,7 @@ struct Chain {
   double carried = 0.0;  ///< with which the inertia follows the joint
   double before = 0.0;   ///< Nm in the filter at the start, of what the joint did before
   double angle = 0.0;    ///< time constant behind the encoder
+  double cold = 0.0;     ///< Nm of dry friction at the session's start, gone as it warms up
 };
 
 /// Back and forth at nearly constant speed: A asin(s sin wt)/asin(s).
@@ -54,9 +56,13 @@ struct Stroke {
 };
 
 /// Weight, dry and viscous friction.
-double static_torque(const Stroke& s, double t) {
-  return -20.0 * std::sin(s.position(t)) + 0.8 * std::tanh(s.velocity(t) / 0.01) +
+double static_torque(const Stroke& s, double t, double dry = 0.8) {
+  return -20.0 * std::sin(s.position(t)) + dry * std::tanh(s.velocity(t) / 0.01) +
          0.5 * s.velocity(t);
+}
+
+double dry_friction(const Chain& chain, double session) {
+  return 0.8 + chain.cold * std::exp(-session / kWarmUp);
 }
 
 /// A filter of first order in steps that are short against it; 0: none.
@@ -81,7 +87,8 @@ Recording recording_of(const Stroke& s, const Chain& chain, unsigned seed) {
   std::normal_distribution<double> noise(0.0, kNoise);
   std::normal_distribution<double> jitter(0.0, 2e-5);
   Filter carried(chain.carried, step, s.acceleration(-chain.delay));
-  double recorded = static_torque(s, -chain.delay) + kInertia * s.acceleration(-chain.delay);
+  double recorded = static_torque(s, -chain.delay, dry_friction(chain, r.start_s)) +
+                    kInertia * s.acceleration(-chain.delay);
   recorded += chain.before;
   Filter sensor(chain.filter, step, recorded);
   double seen = s.position(0.0);
@@ -93,7 +100,8 @@ Recording recording_of(const Stroke& s, const Chain& chain, unsigned seed) {
     for (int k = 0; k < fine; ++k) {
       const double then = t + (k + 0.5) * step - chain.delay;
       const double moved = kInertia * carried.advance(s.acceleration(then));
-      recorded = sensor.advance(static_torque(s, then) + moved);
+      const double dry = dry_friction(chain, r.start_s + then);
+      recorded = sensor.advance(static_torque(s, then, dry) + moved);
       seen = encoder.advance(s.position(then + chain.delay));
     }
   }
@@ -158,6 +166,18 @@ TEST(LateTorque, IsNotThatOfAFilterOnBothChannels) {
   EXPECT_NEAR(common_filter_of(d), kBoth, 0.2 * kBoth);
   EXPECT_NEAR(parameter(d.model->drive.torsion, "inertia_torque", "inertia"), kInertia,
               0.03 * kInertia);
+  EXPECT_LT(d.holdout.rmse_after, 1.5 * kNoise);
+}
+
+// What warms up goes by the friction before the filter, as the rest does.
+TEST(LateTorque, IsNotThatOfAFilterOnBothChannelsOfAJointThatWarmsUp) {
+  constexpr double kBoth = 0.03;
+  const Diagnosis d = diagnosed(joint({.filter = kBoth, .angle = kBoth, .cold = 2.0}));
+  EXPECT_THAT(names(d), testing::UnorderedElementsAre("inertia_torque", "thermal_friction_drift"))
+      << d.says;
+  EXPECT_NEAR(common_filter_of(d), kBoth, 0.2 * kBoth);
+  const ModelSpec& model = d.model->drive.torsion;
+  EXPECT_NEAR(parameter(model, "thermal_friction_drift", "time_constant"), kWarmUp, 0.1 * kWarmUp);
   EXPECT_LT(d.holdout.rmse_after, 1.5 * kNoise);
 }
 

@@ -1,3 +1,4 @@
+#include "diagnosis/frame/coordinates.hpp"
 #include "diagnosis/model/cause_columns.hpp"
 
 namespace flexspline::studies {
@@ -20,26 +21,39 @@ Columns at_motor(Equation, const Frame& f, const Reference& known, Values shape)
   return {cold * known.motor_sign, cold * f.motor_speed / f.speed_range};
 }
 
+Columns at_joint(Equation, const Frame& f, const Reference& known, Values shape) {
+  const ArrayXd cold = cold_share(f, shape[0]);
+  return {cold * rounded_sign(f.torsion_rate, known.torsion_sign),
+          cold * f.torsion_rate / f.rate_range};
+}
+
 Columns across(Equation, const Frame& f, const Reference& known, Values shape) {
   return {cold_share(f, shape[0]) * known.dissipative};
 }
 
-Counterpart motor_warms(const FittedCause& c) {
+Counterpart warms(const FittedCause& c, std::span<const SignPart> sign, double fastest) {
   Counterpart counterpart{
-      .effects =
-          by_sign_part(c.motor_sign, "thermal_friction_drift", [&](double share, double width) {
-            return std::vector<std::pair<std::string, double>>{
-                {"coulomb", share * c.coefficients[0]},
-                {"viscous", share * c.coefficients[1] / c.frame.speed_range},
-                {"time_constant", c.shape[0]},
-                {"smoothing", width}};
-          })};
+      .effects = by_sign_part(sign, "thermal_friction_drift", [&](double share, double width) {
+        return std::vector<std::pair<std::string, double>>{
+            {"coulomb", share * c.coefficients[0]},
+            {"viscous", share * c.coefficients[1] / fastest},
+            {"time_constant", c.shape[0]},
+            {"smoothing", width}};
+      })};
   counterpart.caveat = kSessionClock;
   return counterpart;
 }
 
-std::vector<Term> motor_terms(const Frame&) {
-  return {{"coulomb", "Nm", "dry friction of the cold motor beyond the warm one's"},
+Counterpart motor_warms(const FittedCause& c) {
+  return warms(c, c.motor_sign, c.frame.speed_range);
+}
+
+Counterpart joint_warms(const FittedCause& c) {
+  return warms(c, c.torsion_sign, c.frame.rate_range);
+}
+
+std::vector<Term> dry_and_viscous(const Frame&) {
+  return {{"coulomb", "Nm", "dry friction when cold beyond the warm one's"},
           {"viscous", "Nm", "the same of the viscous friction at the largest speed"}};
 }
 
@@ -56,10 +70,19 @@ CauseRow describe_thermal_friction_drift() {
                      .rigs = kMotors,
                      .at = {Equation::motor},
                      .shapes = warming,
-                     .terms = motor_terms,
+                     .terms = dry_and_viscous,
                      .columns = at_motor,
                      .nonnegative = true,
                      .counterpart = motor_warms},
+                    {.equation = "tau += (c sgn q' + B q') exp(-t/T), t of the session",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = warming,
+                     .terms = dry_and_viscous,
+                     .columns = at_joint,
+                     .nonnegative = true,
+                     .where = travels,
+                     .counterpart = joint_warms},
                     {.equation = "tau += c g^-1(phi'/h) exp(-t/T), t of the session",
                      .rigs = {Rig::locked, Rig::specimen},
                      .at = {Equation::torsion},
@@ -67,6 +90,7 @@ CauseRow describe_thermal_friction_drift() {
                      .terms = gear_terms,
                      .columns = across,
                      .nonnegative = true,
+                     .where = wound_up,
                      .no_counterpart =
                          "the catalogue of effects warms up the motor's friction, not g^-1"}}};
 }

@@ -149,6 +149,8 @@ Trial tried_out(const Frame& frame, const Findings& findings, const FirstLook& l
   auto fit = extended(frame, findings, cause, contends ? kFinishSteps : 0);
   if (contends && look.form->transform != nullptr) {
     take_better(fit, from_scratch(frame, findings, cause));
+    const bool first = findings.fit.model.causes.empty();
+    if (fit && !first) take_better(fit, by_its_own_laws(frame, findings, *fit, kFinishSteps));
   }
   return fit ? judged(frame, findings, std::move(*fit), tried) : Trial{.cause = cause};
 }

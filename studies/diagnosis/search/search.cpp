@@ -219,6 +219,13 @@ Result<ModelFit> extended(const Frame& frame, const Findings& findings, const Ac
                   steps);
 }
 
+Result<ModelFit> by_its_own_laws(const Frame& frame, Findings findings, const ModelFit& fit,
+                                 int steps) {
+  findings.reference = reference_of(frame, fit.model);
+  return fit_part(frame, findings, fit,
+                  linked_equations(frame, fit.model.causes, *fit.model.causes.back().form), steps);
+}
+
 Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause, int steps,
                          double smallest_fall) {
   ModelFit whole = findings.fit;

@@ -55,6 +55,11 @@ Result<void> fit_all(const Frame& frame, Findings& findings, int steps,
 Result<ModelFit> extended(const Frame& frame, const Findings& findings, const ActiveCause& cause,
                           int steps);
 
+/// A fit whose last cause changes the motion once more, its causes by the laws along the motion as
+/// it has become: what goes by a law was held against that before the change.
+Result<ModelFit> by_its_own_laws(const Frame& frame, Findings findings, const ModelFit& fit,
+                                 int steps);
+
 /// The fit of the same model without one of its causes.
 Result<ModelFit> reduced(const Frame& frame, const Findings& findings, std::size_t cause, int steps,
                          double smallest_fall = kSearchedFall);
