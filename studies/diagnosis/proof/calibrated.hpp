@@ -27,7 +27,7 @@ struct NameEvidence {
 /// effects added to recordings by others, right and wrong ones (docs/decisions/0037): a frequency
 /// among such cases, of which one in four hides something outside the catalogue or in a single
 /// recording. Where there were outer folds, the mean of this and what their searches say: a
-/// bagged posterior (Huggins and Miller 2020), which does not hang on rows that another recording
+/// bagged posterior (Huggins and Miller 2023), which does not hang on rows that another recording
 /// of the same drive would not have had. NaN where a number is.
 double probability_right(const NameEvidence& evidence);
 
