@@ -26,6 +26,7 @@ TEST(BaselineColumns, OfATravellingAngleHoldAHyperbolicTangentOfEachWidth) {
     EXPECT_DOUBLE_EQ(widths[k], 1e-3 * frame.rate_range * std::pow(2.0, static_cast<double>(k)));
     const ArrayXd expected = (frame.torsion_rate / widths[k]).tanh();
     const ArrayXd column = all.columns.col(all.elastic + static_cast<Index>(k));
+    // Rounding: nine doublings of a tanh, each off by some units of the last place.
     EXPECT_LT((column - expected).abs().maxCoeff(), 2e-14) << widths[k];
   }
 }

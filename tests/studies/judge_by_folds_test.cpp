@@ -77,7 +77,7 @@ TEST_F(JudgeByFolds, ANameThatTheyDoNotFindIsNoneOfTheirs) {
   EXPECT_TRUE(named->selection.accepted.empty());
 }
 
-TEST_F(JudgeByFolds, TheStabilityIsTheShareThatNamesItOrAnAlternative) {
+TEST(StabilityOf, IsTheShareOfFoldsThatNameItOrAnAlternative) {
   NestedProof nested;
   nested.found = {{{{"a", "b"}, 0.8, true}}, {{{"b"}, 0.4, false}}, {{{"c"}, 0.9, true}}, {}};
   Cause cause;

@@ -122,8 +122,8 @@ class Sought {
     Counterpart made;
     std::vector<SignPart> sign = {{1.0, own_width_ ? c.shape.back() : 1.0}};
     if (has(Role::sign_width) && !own_width_) {
-      const auto& fitted = at_ == Equation::motor ? c.motor_sign : c.torsion_sign;
-      sign.assign(fitted.begin(), fitted.end());
+      const auto& whole = at_ == Equation::motor ? c.motor_sign : c.torsion_sign;
+      sign.assign(whole.begin(), whole.end());
     }
     for (const SignPart& part : sign)
       made.effects.push_back({std::string(effect_->id), fitted(c, part)});

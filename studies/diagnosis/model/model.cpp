@@ -59,9 +59,13 @@ ArrayXd unfiltered(const Frame& seen, const Reference& reference, const DriveMod
 
 void take_gear(const Frame& frame, const DriveModel& model, Reference& reference) {
   const std::size_t e = index_of(Equation::torsion);
-  if (model.own.size() <= e || model.own[e].size() == 0) return;
+  if (model.own.size() <= e || model.own[e].size() == 0) {
+    reference.torsion_sign = torsion_sign(frame, model);
+    return;
+  }
   ModelColumns columns(frame, reference);
   Frame seen = columns.seen(model);
+  reference.torsion_sign = torsion_sign(seen, model);
   seen.torque_lag = 0.0;
   const auto own = shared_baseline(seen, Equation::torsion, model.torsion_shape);
   const Eigen::VectorXd& b = model.own[e];
@@ -152,7 +156,6 @@ Reference reference_of(const Frame& frame, const DriveModel& model) {
   reference.dissipative = ArrayXd::Zero(frame.rows());
   reference.friction = reference.dissipative;
   reference.motor_sign = motor_sign(frame, model);
-  reference.torsion_sign = torsion_sign(frame, model);
   take_gear(frame, model, reference);
   reference.asked_rate = asked_rate_of(frame, model, reference);
   return reference;

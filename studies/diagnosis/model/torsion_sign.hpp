@@ -6,10 +6,12 @@
 
 namespace flexspline::studies {
 
-/// The sign with which dry friction across the transmission turns with phi', shares that add up to
-/// one: of an angle that travels as the baseline's dry friction does, which is a mixture over
-/// travelling_widths(), where it has none a hundredth of the largest rate; else rounded off below
-/// the slowest rate, or a thousandth of the largest.
+/// The sign with which dry friction across the transmission turns with phi',
+///   s = sum_k c_k tanh(phi'/w_k), c_k > 0, sum c_k = 1, w_k in rad/s (m/s).
+/// Of an angle that travels the w_k are travelling_widths() and the c_k those of the baseline's dry
+/// friction, as fitted to this frame, the motion as the model's causes see it; where it has none,
+/// one hundredth of the largest rate. Else one width: the slowest rate, or a thousandth of the
+/// largest. Not modelled: another sign of what a cause adds than of the baseline's own friction.
 std::vector<SignPart> torsion_sign(const Frame& frame, const DriveModel& model);
 
 }  // namespace flexspline::studies

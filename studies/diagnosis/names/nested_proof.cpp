@@ -151,10 +151,9 @@ void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>&
     if (!std::ranges::all_of(form.at, judged)) continue;
     NameEvidence& name = finding.proof.causes[i].name;
     take_errors(frame, selection.final, form, pool.before, pool.after, held, name);
+    const auto ids = ids_of(selection.accepted[i], selection);
     name.in_folds.clear();
-    for (const auto& fold : folds) {
-      name.in_folds.push_back(probability_in(*fold, ids_of(selection.accepted[i], selection)));
-    }
+    for (const auto& fold : folds) name.in_folds.push_back(probability_in(*fold, ids));
   }
 }
 

@@ -112,6 +112,11 @@ void refine(FirstLook& look) {
 /// What the search over starts and causes gains on noise alone, in chi square.
 double search_penalty(std::size_t tried) { return 2.0 * std::log(static_cast<double>(tried)); }
 
+// A joint that travels, for one, has no shapes to start from elsewhere.
+bool starts_from_scratch(const Frame& frame, const Findings& findings) {
+  return findings.fit.model.torsion_shape == first_guess(frame).torsion_shape;
+}
+
 // A change of the motion asks for another h: the fit from where nothing of it is known.
 Result<ModelFit> from_scratch(const Frame& frame, Findings findings, const ActiveCause& cause) {
   findings.fit.model.torsion_shape = first_guess(frame).torsion_shape;
@@ -148,7 +153,9 @@ Trial tried_out(const Frame& frame, const Findings& findings, const FirstLook& l
   const bool contends = look.gain > kWorthFinishing * best;
   auto fit = extended(frame, findings, cause, contends ? kFinishSteps : 0);
   if (contends && look.form->transform != nullptr) {
-    take_better(fit, from_scratch(frame, findings, cause));
+    if (!starts_from_scratch(frame, findings)) {
+      take_better(fit, from_scratch(frame, findings, cause));
+    }
     const bool first = findings.fit.model.causes.empty();
     if (fit && !first) take_better(fit, by_its_own_laws(frame, findings, *fit, kFinishSteps));
   }
