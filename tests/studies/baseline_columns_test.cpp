@@ -23,7 +23,7 @@ TEST(BaselineColumns, OfATravellingAngleHoldAHyperbolicTangentOfEachWidth) {
   const BaselineColumns all = baseline_columns(frame, Equation::torsion, {});
   ASSERT_EQ(all.columns.cols(), all.elastic + static_cast<Index>(widths.size()) + 1);
   for (std::size_t k = 0; k < widths.size(); ++k) {
-    EXPECT_DOUBLE_EQ(widths[k], 1e-3 * frame.rate_range * std::pow(2.0, static_cast<double>(k)));
+    EXPECT_DOUBLE_EQ(widths[k], 1e-3 * frame.rate_range * std::exp2(0.5 * static_cast<double>(k)));
     const ArrayXd expected = (frame.torsion_rate / widths[k]).tanh();
     const ArrayXd column = all.columns.col(all.elastic + static_cast<Index>(k));
     // Rounding: nine doublings of a tanh, each off by some units of the last place.

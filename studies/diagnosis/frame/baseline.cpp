@@ -25,7 +25,7 @@ constexpr Index kDryWidths = 7;
 constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
 constexpr double kWidest = 0.1;
 constexpr double kFree = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kTravelWidths = 10;  // each twice the one before: to half the largest rate
+constexpr std::size_t kTravelWidths = 19;  // two to an octave: to half the largest rate
 
 std::vector<double> even_knots(int count) {
   std::vector<double> knots;
@@ -146,11 +146,15 @@ BaselineColumns travelling_columns(const Frame& frame) {
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  // Each width is half of the next: tanh(2u) = 2t/(1 + t^2), t = tanh(u).
-  ArrayXd sign = rounded_sign(frame.torsion_rate, widths.back());
+  // Each width is half of the next but one: tanh(2u) = 2t/(1 + t^2), t = tanh(u).
   for (Index k = g - 2; k >= 0; --k) {
-    c.columns.col(f + k) = sign;
-    sign *= 2.0 / (1.0 + sign.square());
+    auto sign = c.columns.col(f + k).array();
+    if (k + 2 > g - 2) {
+      sign = rounded_sign(frame.torsion_rate, widths[static_cast<std::size_t>(k)]);
+    } else {
+      const auto wider = c.columns.col(f + k + 2).array();
+      sign = 2.0 * wider / (1.0 + wider.square());
+    }
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   return c;
@@ -203,8 +207,8 @@ std::vector<double> dry_widths(const Frame& frame) {
 
 std::vector<double> travelling_widths(const Frame& frame) {
   std::vector<double> widths;
-  double width = kNarrowest * frame.rate_range;
-  for (std::size_t k = 0; k < kTravelWidths; ++k, width *= 2.0) widths.push_back(width);
+  for (std::size_t k = 0; k < kTravelWidths; ++k)
+    widths.push_back(kNarrowest * frame.rate_range * std::exp2(0.5 * static_cast<double>(k)));
   return widths;
 }
 
