@@ -173,10 +173,9 @@ Eigen::MatrixXd jacobian(const SeparableProblem& problem, const Point& point, in
     }
     std::vector<double> q = fit.q;
     q[i] += step;
-    const auto moved = problem.assemble(q);
-    std::vector<Eigen::VectorXd> change;
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-      change.push_back((residual_of(moved[k], fit.b(moved[k].index)) - fit.residual[k]) / step);
+    auto change = residuals_at(problem, q, fit.b);
+    for (std::size_t k = 0; k < change.size(); ++k) {
+      change[k] = (change[k] - fit.residual[k]) / step;
     }
     projection.project(change);
     result.col(static_cast<Eigen::Index>(i)) = stacked(change);
@@ -264,6 +263,16 @@ double difference_step(const ShapeBound& bound, double q) {
 
 Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
   return block.target - times(block, b);
+}
+
+std::vector<Eigen::VectorXd> residuals_at(const SeparableProblem& problem,
+                                          std::span<const double> q, const Eigen::VectorXd& b) {
+  if (problem.residuals) return problem.residuals(q, b);
+  std::vector<Eigen::VectorXd> residuals;
+  for (const SeparableBlock& block : problem.assemble(q)) {
+    residuals.push_back(residual_of(block, b(block.index)));
+  }
+  return residuals;
 }
 
 SharedColumns::SharedColumns(Eigen::MatrixXd weighted) : columns(std::move(weighted)) {}

@@ -71,6 +71,28 @@ TEST(Separable, RecoversASumOfTwoDecays) {
   EXPECT_LT(fit.sum_of_squares, 1e-8);
 }
 
+TEST(Separable, ResidualsThatAreGivenTakeThePlaceOfColumnsInTheJacobian) {
+  const VectorXd t = times();
+  const VectorXd y = VectorXd(2.0 * decay(0.5, t) - 1.2 * decay(3.0, t)) + disturbance(t);
+  auto problem = decay_problem(y, {{0.9, 0.1, 1.5}, {5.0, 1.6, 9.0}}, kFree);
+  const auto by_columns = fitted(problem);
+  int built = 0;
+  int left = 0;
+  problem.assemble = [&built, assemble = problem.assemble](std::span<const double> q) {
+    ++built;
+    return assemble(q);
+  };
+  problem.residuals = [&](std::span<const double> q, const VectorXd& b) {
+    ++left;
+    return std::vector<VectorXd>{y - decays(q, t) * b};
+  };
+  const auto by_residuals = fitted(problem);
+  EXPECT_EQ(by_residuals.evaluations, by_columns.evaluations);
+  EXPECT_EQ(built + left, by_residuals.evaluations);
+  EXPECT_GT(left, built);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(by_residuals.q[i], by_columns.q[i], 1e-9);
+}
+
 TEST(Separable, EndsWhereAStepGainsTooLittle) {
   const VectorXd t = times();
   const VectorXd y = 2.0 * decay(0.5, t) - 1.2 * decay(3.0, t);

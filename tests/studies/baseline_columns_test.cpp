@@ -1,5 +1,6 @@
 // The baseline's columns against the functions that they stand for.
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -49,6 +50,48 @@ TEST(BaselineColumns, OfAGearAreOddIntegratedSplines) {
     }
   }
 }
+
+struct BaselineKind {
+  const char* name;
+  Rig rig;
+  bool travels, firm;
+  double lag;  // s
+};
+
+class BaselineTorqueOf : public testing::TestWithParam<BaselineKind> {};
+
+TEST_P(BaselineTorqueOf, IsTheColumnsTimesTheirParameters) {
+  const auto& [name, rig, travels, firm, lag] = GetParam();
+  Frame frame = closed_form_frame(150);
+  frame.rig = rig;
+  frame.travels = travels;
+  frame.firm_spring = firm;
+  frame.torque_lag = lag;
+  frame.rate_range *= 0.8;  // some rows beyond the range of the law
+  const std::vector<double> shape = {0.4, -0.7, 0.1};
+  const BaselineColumns all = baseline_columns(frame, Equation::torsion, shape);
+  const Eigen::VectorXd b = normal(all.columns.cols(), 5).matrix();
+  const BaselineTorque torque = baseline_torque(frame, shape, b);
+  const double rounding = 1e-13 * (all.columns * b).norm();
+  EXPECT_GT((all.columns * b).norm(), 1.0);
+  EXPECT_LT((torque.sum().matrix() - all.columns * b).norm(), rounding);
+  EXPECT_LT((torque.prior - all.prior * b).norm(), 1e-13 * (all.prior * b).norm());
+  const auto part = [&](Index first, Index count) {
+    return ArrayXd((all.columns.middleCols(first, count) * b.segment(first, count)).array());
+  };
+  EXPECT_LT((torque.elastic - part(0, all.elastic)).matrix().norm(), rounding);
+  EXPECT_LT((torque.dissipative - part(all.elastic, all.dissipative)).matrix().norm(), rounding);
+  EXPECT_EQ(torque.offset, rig == Rig::specimen ? b[b.size() - 1] : 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, BaselineTorqueOf,
+                         testing::Values(BaselineKind{"free", Rig::free, false, false, 0.0},
+                                         BaselineKind{"firm", Rig::free, false, true, 0.0},
+                                         BaselineKind{"filtered", Rig::free, false, false, 0.03},
+                                         BaselineKind{"specimen", Rig::specimen, false, false, 0.0},
+                                         BaselineKind{"travels", Rig::free, true, false, 0.0},
+                                         BaselineKind{"both", Rig::free, true, false, 0.03}),
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(LowPass, FiltersColumnsTogetherAsOneByOne) {
   const Frame frame = closed_form_frame();

@@ -10,6 +10,7 @@
 #include "diagnosis/frame/low_pass.hpp"
 #include "flexspline/core/cubic_basis.hpp"
 #include "flexspline/core/integrated_basis.hpp"
+#include "flexspline/core/monotone_spline.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -60,6 +61,16 @@ void odd_columns(const IntegratedBasis& basis, const ArrayXd& x, Eigen::Ref<Matr
   }
 }
 
+// odd_columns() times b: one cubic by row.
+ArrayXd odd_sum(const IntegratedBasis& basis, const Eigen::VectorXd& b, const ArrayXd& x) {
+  const auto knots = basis.breakpoints();
+  LawSpec spec;
+  spec.knots.assign(knots.begin() + 1, knots.end() - 1);
+  spec.coefficients.assign(b.begin(), b.end());
+  const MonotoneSpline law(std::move(spec));
+  return x.unaryExpr([&law](double u) { return law.value(u); });
+}
+
 // The torsion from where it is unloaded: shape[2] is the zero's error over the range.
 ArrayXd wound(const Frame& frame, std::span<const double> shape) {
   return frame.torsion / frame.torsion_range - shape[2];
@@ -100,30 +111,57 @@ Eigen::VectorXd heights(const IntegratedBasis& basis) {
 
 // f = sum_i c_i I_i(x); of a firm spring sum_i c_i (I_i(x) + e I_i(1) x), whose slope with c_i >= 0
 // is nowhere below e/(1 + e) of its mean.
+constexpr double kFirm = kLeastSlope / (1.0 - kLeastSlope);
+
 void elastic_columns(const Frame& frame, const IntegratedBasis& basis, const ArrayXd& x,
                      Eigen::Ref<MatrixXd> out) {
   odd_columns(basis, x, out);
   if (!frame.firm_spring) return;
   const Eigen::VectorXd whole = heights(basis);
-  for (Index k = 0; k < whole.size(); ++k) {
-    out.col(k) += kLeastSlope / (1.0 - kLeastSlope) * whole[k] * x.matrix();
-  }
+  for (Index k = 0; k < whole.size(); ++k) out.col(k) += kFirm * whole[k] * x.matrix();
+}
+
+ArrayXd elastic_sum(const Frame& frame, const IntegratedBasis& basis, const Eigen::VectorXd& c,
+                    const ArrayXd& x) {
+  ArrayXd sum = odd_sum(basis, c, x);
+  if (frame.firm_spring) sum += kFirm * heights(basis).dot(c) * x;
+  return sum;
+}
+
+/// The laws of a gear, what they are taken at, and how many parameters each has.
+struct GearLaws {
+  GearLaws(const Frame& frame, std::span<const double> shape)
+      : elastic(even_knots(kElasticKnots)),
+        dissipative(rate_knots(frame)),
+        f(static_cast<Index>(elastic.size())),
+        g(static_cast<Index>(dissipative.size())),
+        torsion(wound(frame, shape)),
+        rate(frame.torsion_rate / frame.rate_range / modulation(frame, shape)),
+        offset(frame.rig == Rig::specimen) {}
+
+  Index size() const { return f + g + (offset ? 1 : 0); }
+
+  IntegratedBasis elastic, dissipative;
+  Index f, g;
+  ArrayXd torsion, rate;
+  bool offset;
+};
+
+MatrixXd prior_of(const Frame& frame, const GearLaws& laws) {
+  const auto& [elastic, dissipative, f, g, torsion, rate, offset] = laws;
+  MatrixXd prior = MatrixXd::Zero(f + g - 2, laws.size());
+  penalise_differences(frame, ArrayXd::Ones(f - 1), prior.topLeftCorner(f - 1, f));
+  penalise_differences(frame, midpoints(dissipative).inverse(), prior.block(f - 1, f, g - 1, g));
+  return prior;
 }
 
 BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) {
-  const IntegratedBasis elastic(even_knots(kElasticKnots));
-  const IntegratedBasis dissipative(rate_knots(frame));
-  const bool offset = frame.rig == Rig::specimen;
-  const Index f = static_cast<Index>(elastic.size());
-  const Index g = static_cast<Index>(dissipative.size());
-  BaselineColumns c{MatrixXd(frame.rows(), f + g + (offset ? 1 : 0)),
-                    Eigen::VectorXd::Zero(f + g + (offset ? 1 : 0)), f, g,
-                    MatrixXd::Zero(f + g - 2, f + g + (offset ? 1 : 0))};
-  penalise_differences(frame, ArrayXd::Ones(f - 1), c.prior.topLeftCorner(f - 1, f));
-  penalise_differences(frame, midpoints(dissipative).inverse(), c.prior.block(f - 1, f, g - 1, g));
-  elastic_columns(frame, elastic, wound(frame, shape), c.columns.leftCols(f));
-  odd_columns(dissipative, frame.torsion_rate / frame.rate_range / modulation(frame, shape),
-              c.columns.middleCols(f, g));
+  const GearLaws laws(frame, shape);
+  const auto& [elastic, dissipative, f, g, torsion, rate, offset] = laws;
+  BaselineColumns c{MatrixXd(frame.rows(), laws.size()), Eigen::VectorXd::Zero(laws.size()), f, g,
+                    prior_of(frame, laws)};
+  elastic_columns(frame, elastic, torsion, c.columns.leftCols(f));
+  odd_columns(dissipative, rate, c.columns.middleCols(f, g));
   if (offset) {
     c.columns.col(f + g).setOnes();
     c.lower[f + g] = kFree;
@@ -131,14 +169,32 @@ BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) 
   return c;
 }
 
+BaselineTorque gear_torque(const Frame& frame, std::span<const double> shape,
+                           const Eigen::VectorXd& b) {
+  const GearLaws laws(frame, shape);
+  return {elastic_sum(frame, laws.elastic, b.head(laws.f), laws.torsion),
+          odd_sum(laws.dissipative, b.segment(laws.f, laws.g), laws.rate),
+          laws.offset ? b[laws.f + laws.g] : 0.0, prior_of(frame, laws) * b};
+}
+
+CubicBasis positions(const Frame& frame) { return {frame.lowest, frame.highest, kTravelIntervals}; }
+
+MatrixXd travelling_prior(const Frame& frame, Index f, Index g) {
+  MatrixXd prior = MatrixXd::Zero(f - 1, f + g);
+  penalise_differences(frame, ArrayXd::Ones(f - 1), prior.leftCols(f));
+  return prior;
+}
+
+// Of half the width: tanh(2u) = 2t/(1 + t^2), t = tanh(u).
+ArrayXd sharper(const ArrayXd& t) { return 2.0 * t / (1.0 + t.square()); }
+
 BaselineColumns travelling_columns(const Frame& frame) {
-  const CubicBasis position(frame.lowest, frame.highest, kTravelIntervals);
+  const CubicBasis position = positions(frame);
   const Index f = static_cast<Index>(position.size());
   const auto widths = travelling_widths(frame);
   const Index g = static_cast<Index>(widths.size()) + 1;
   BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g,
-                    MatrixXd::Zero(f - 1, f + g)};
-  penalise_differences(frame, ArrayXd::Ones(f - 1), c.prior.leftCols(f));
+                    travelling_prior(frame, f, g)};
   c.lower.head(f).setConstant(kFree);
   for (Index r = 0; r < frame.rows(); ++r) {
     const auto local = position.at(frame.torsion[r]);
@@ -146,18 +202,38 @@ BaselineColumns travelling_columns(const Frame& frame) {
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  // Each width is half of the next but one: tanh(2u) = 2t/(1 + t^2), t = tanh(u).
+  // Each width is half of the next but one.
   for (Index k = g - 2; k >= 0; --k) {
-    auto sign = c.columns.col(f + k).array();
-    if (k + 2 > g - 2) {
-      sign = rounded_sign(frame.torsion_rate, widths[static_cast<std::size_t>(k)]);
-    } else {
-      const auto wider = c.columns.col(f + k + 2).array();
-      sign = 2.0 * wider / (1.0 + wider.square());
-    }
+    c.columns.col(f + k) =
+        k + 2 > g - 2 ? rounded_sign(frame.torsion_rate, widths[static_cast<std::size_t>(k)])
+                      : sharper(c.columns.col(f + k + 2));
   }
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   return c;
+}
+
+BaselineTorque travelling_torque(const Frame& frame, const Eigen::VectorXd& b) {
+  const CubicBasis position = positions(frame);
+  const Index f = static_cast<Index>(position.size());
+  const auto widths = travelling_widths(frame);
+  const Index g = static_cast<Index>(widths.size()) + 1;
+  ArrayXd elastic = ArrayXd::Zero(frame.rows());
+  for (Index r = 0; r < frame.rows(); ++r) {
+    const auto local = position.at(frame.torsion[r]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      elastic[r] += b[static_cast<Index>(local.first + k)] * local.value[k];
+    }
+  }
+  ArrayXd dissipative = b[f + g - 1] / frame.rate_range * frame.torsion_rate;
+  for (const Index widest : {g - 2, g - 3}) {
+    ArrayXd sign = rounded_sign(frame.torsion_rate, widths[static_cast<std::size_t>(widest)]);
+    for (Index k = widest;; k -= 2) {
+      dissipative += b[f + k] * sign;
+      if (k < 2) break;
+      sign = sharper(sign);
+    }
+  }
+  return {std::move(elastic), std::move(dissipative), 0.0, travelling_prior(frame, f, g) * b};
 }
 
 // Dry friction rises and saturates in its own way: a mixture of tanh of several widths.
@@ -253,6 +329,17 @@ BaselineColumns baseline_columns(const Frame& frame, Equation equation,
   BaselineColumns c = before_a_filter(frame, equation, shape);
   if (frame.torque_lag > 0.0) shared_low_pass(frame, frame.torque_lag)->apply(c.columns);
   return c;
+}
+
+BaselineTorque baseline_torque(const Frame& frame, std::span<const double> shape,
+                               const Eigen::VectorXd& b) {
+  BaselineTorque torque =
+      frame.travels ? travelling_torque(frame, b) : gear_torque(frame, shape, b);
+  if (frame.torque_lag > 0.0) {
+    const auto filter = shared_low_pass(frame, frame.torque_lag);
+    for (ArrayXd* part : {&torque.elastic, &torque.dissipative}) filter->apply(part->matrix());
+  }
+  return torque;
 }
 
 ArrayXd told_torque(const Frame& frame) {

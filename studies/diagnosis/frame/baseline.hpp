@@ -31,6 +31,17 @@ Eigen::ArrayXd target_of(const Frame& frame, Equation equation);
 BaselineColumns baseline_columns(const Frame& frame, Equation equation,
                                  std::span<const double> shape);
 
+/// Of the torsion equation baseline_columns() times linear parameters b, without the columns.
+struct BaselineTorque {
+  Eigen::ArrayXd elastic, dissipative;  ///< f and g^-1, by row
+  double offset = 0.0;                  ///< of a specimen's torque
+  Eigen::VectorXd prior;                ///< the rows of the prior times b
+
+  Eigen::ArrayXd sum() const { return elastic + dissipative + offset; }
+};
+BaselineTorque baseline_torque(const Frame& frame, std::span<const double> shape,
+                               const Eigen::VectorXd& b);
+
 /// The transmitted torque as far as the torsion and its rate tell it, Nm by row: its least squares
 /// over usable rows on the columns of the torsion equation's baseline (h = 1, zero as it is),
 /// without their bounds; hysteresis that remembers its way is not in it. Free of the sensor's

@@ -149,6 +149,22 @@ std::shared_ptr<const BaselineColumns> shared_baseline(const Frame& frame, Equat
   return frame.kept->plain.get(sum_of(frame, equation, shape), build);
 }
 
+Eigen::VectorXd weighted_sum(const Frame& frame, Equation equation, std::span<const double> shape,
+                             const WeightedRows& rows, const Eigen::VectorXd& b) {
+  if (equation != Equation::torsion) {
+    return weighted_baseline(frame, equation, shape, rows)->columns->columns * b;
+  }
+  Eigen::VectorXd sum(rows.size());
+  if (frame.torque_lag > 0.0) {
+    const BaselineTorque all = baseline_torque(frame, shape, b);
+    sum << (all.sum()(rows.at) * rows.weight).matrix(), all.prior;
+  } else {
+    const BaselineTorque some = baseline_torque(motion_at(frame, rows.at), shape, b);
+    sum << (some.sum() * rows.weight).matrix(), some.prior;
+  }
+  return sum;
+}
+
 std::shared_ptr<const WeightedBaseline> weighted_baseline(const Frame& frame, Equation equation,
                                                           std::span<const double> shape,
                                                           const WeightedRows& rows) {

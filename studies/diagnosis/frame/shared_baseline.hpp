@@ -40,6 +40,10 @@ class WeightedRows {
   Eigen::Index prior_;
 };
 
+/// Those columns times linear parameters b.
+Eigen::VectorXd weighted_sum(const Frame& frame, Equation equation, std::span<const double> shape,
+                             const WeightedRows& rows, const Eigen::VectorXd& b);
+
 /// The baseline's columns on some rows, kept like shared_baseline(). Thread-safe.
 std::shared_ptr<const WeightedBaseline> weighted_baseline(const Frame& frame, Equation equation,
                                                           std::span<const double> shape,

@@ -22,11 +22,16 @@ int count_free(const Eigen::VectorXd& b, const Eigen::VectorXd& lower, std::size
   return count;
 }
 
-ArrayXd prediction_of(const EquationColumns& c, const DriveModel& model, Equation equation) {
-  ArrayXd sum = (c.own->columns * model.own[index_of(equation)]).array();
-  for (std::size_t k = 0; k < c.causes.size(); ++k) {
-    for (std::size_t j = 0; j < c.causes[k]->size(); ++j) {
-      sum += model.coefficients[k][static_cast<Index>(j)] * (*c.causes[k])[j];
+ArrayXd prediction_of(ModelColumns& columns, const DriveModel& model, Equation equation) {
+  const auto causes = columns.causes_at(model, equation);
+  const Frame& seen = columns.seen(model);
+  const Eigen::VectorXd& own = model.own[index_of(equation)];
+  ArrayXd sum = equation == Equation::torsion
+                    ? baseline_torque(seen, model.torsion_shape, own).sum()
+                    : ArrayXd(shared_baseline(seen, equation, {})->columns * own);
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
+      sum += model.coefficients[k][static_cast<Index>(j)] * (*causes[k])[j];
     }
   }
   return sum;
@@ -36,9 +41,8 @@ void fill_residuals(const Frame& frame, ModelColumns& columns,
                     const std::vector<Equation>& equations, ModelFit& fit) {
   for (Equation equation : equations) {
     const std::size_t e = index_of(equation);
-    const auto c = columns.at(fit.model, equation);
     fit.residual[e] =
-        target_of(columns.seen(fit.model), equation) - prediction_of(c, fit.model, equation);
+        target_of(columns.seen(fit.model), equation) - prediction_of(columns, fit.model, equation);
     fit.prediction[e] =
         (equation == Equation::motor ? frame.motor_torque : frame.torque) - fit.residual[e];
   }
@@ -67,12 +71,9 @@ void take_gear(const Frame& frame, const DriveModel& model, Reference& reference
   Frame seen = columns.seen(model);
   reference.torsion_sign = torsion_sign(seen, model);
   seen.torque_lag = 0.0;
-  const auto own = shared_baseline(seen, Equation::torsion, model.torsion_shape);
-  const Eigen::VectorXd& b = model.own[e];
-  reference.elastic = (own->columns.leftCols(own->elastic) * b.head(own->elastic)).array();
-  reference.dissipative = (own->columns.middleCols(own->elastic, own->dissipative) *
-                           b.segment(own->elastic, own->dissipative))
-                              .array();
+  BaselineTorque own = baseline_torque(seen, model.torsion_shape, model.own[e]);
+  reference.elastic = std::move(own.elastic);
+  reference.dissipative = std::move(own.dissipative);
   reference.friction = reference.dissipative;
   for (std::size_t i = 0; i < model.causes.size(); ++i) {
     if (model.causes[i].form->friction) reference.friction += unfiltered(seen, reference, model, i);
@@ -122,6 +123,9 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
   problem.lower = model.lower();
   problem.shapes = model.shapes();
   problem.assemble = [&](std::span<const double> q) { return model.assemble(q); };
+  problem.residuals = [&](std::span<const double> q, const Eigen::VectorXd& b) {
+    return model.residuals(q, b);
+  };
   const auto solved = estimators::fit_separable(problem, effort.most_steps, effort.smallest_gain);
   if (!solved) return tl::unexpected(solved.error());
   ModelFit fit;

@@ -136,6 +136,29 @@ std::vector<SeparableBlock> ModelProblem::assemble(std::span<const double> q) co
   return blocks;
 }
 
+Eigen::VectorXd ModelProblem::residual_of(const DriveModel& model, std::size_t e) const {
+  const Equation equation = equations_[e];
+  const auto causes = columns_.causes_at(model, equation);
+  const Frame& seen = columns_.seen(model);
+  ArrayXd left = target_of(seen, equation);
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
+      left -= model.coefficients[k][static_cast<Index>(j)] * (*causes[k])[j];
+    }
+  }
+  return rows_[e].of(left) - weighted_sum(seen, equation, baseline_shape(model, equation), rows_[e],
+                                          model.own[index_of(equation)]);
+}
+
+std::vector<Eigen::VectorXd> ModelProblem::residuals(std::span<const double> q,
+                                                     const Eigen::VectorXd& b) const {
+  DriveModel model = at(q);
+  put_coefficients(b, model);
+  std::vector<Eigen::VectorXd> list;
+  for (std::size_t e = 0; e < equations_.size(); ++e) list.push_back(residual_of(model, e));
+  return list;
+}
+
 Eigen::VectorXd ModelProblem::coefficients_of(const DriveModel& model) const {
   Eigen::VectorXd b = Eigen::VectorXd::Zero(lower_.size());
   for (std::size_t e = 0; e < equations_.size(); ++e) {

@@ -29,6 +29,8 @@ class ModelProblem {
   const std::vector<estimators::ShapeBound>& shapes() const { return shapes_; }
   const Eigen::VectorXd& lower() const { return lower_; }
   std::vector<estimators::SeparableBlock> assemble(std::span<const double> q) const;
+  /// What assemble() leaves of the target with linear parameters b, by equation.
+  std::vector<Eigen::VectorXd> residuals(std::span<const double> q, const Eigen::VectorXd& b) const;
   /// The model with these shapes.
   DriveModel at(std::span<const double> q) const;
   /// b of a model; 0 of what it does not have.
@@ -46,6 +48,7 @@ class ModelProblem {
   void lay_out_shapes();
   void lay_out_linear();
   estimators::SeparableBlock block_of(const DriveModel& model, std::size_t e) const;
+  Eigen::VectorXd residual_of(const DriveModel& model, std::size_t e) const;
 
   ModelColumns& columns_;
   const Frame& frame_;

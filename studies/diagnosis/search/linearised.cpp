@@ -74,9 +74,9 @@ void Linearised::take(const ModelProblem& model, const VectorXd& b) {
     if (step == 0.0) continue;
     auto moved_to = q;
     moved_to[i] += step;
-    const auto moved = model.assemble(moved_to);
+    const auto moved = model.residuals(moved_to, b);
     for (std::size_t e = 0; e < moved.size(); ++e) {
-      const VectorXd change = (blocks_[e].residual - residual_at(moved[e], b)) / step;
+      const VectorXd change = (blocks_[e].residual - moved[e]) / step;
       if (change.squaredNorm() > 0.0) wide[e].add(change, at);
     }
   }
@@ -175,8 +175,8 @@ class Linearised::Candidate {
   void take_residuals(std::span<const double> s, std::vector<SeparableBlock>& blocks) const {
     auto q = estimators::starts_of(model_->shapes());
     std::ranges::copy(s, q.end() - std::ssize(s));
-    const auto moved = model_->assemble(q);
-    for (std::size_t e = 0; e < blocks.size(); ++e) blocks[e].target = residual_at(moved[e], b_);
+    const auto moved = model_->residuals(q, b_);
+    for (std::size_t e = 0; e < blocks.size(); ++e) blocks[e].target = moved[e];
   }
 
   const Linearised& base_;

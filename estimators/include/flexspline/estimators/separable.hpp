@@ -58,7 +58,14 @@ struct SeparableProblem {
   std::function<std::vector<SeparableBlock>(std::span<const double> q)> assemble;
   Eigen::VectorXd lower;  ///< of b; -infinity: free
   std::vector<ShapeBound> shapes;
+  /// y(q) - X(q) b by block, where that is cheaper than X(q); empty: by assemble.
+  std::function<std::vector<Eigen::VectorXd>(std::span<const double> q, const Eigen::VectorXd& b)>
+      residuals = nullptr;
 };
+
+/// y(q) - X(q) b by block.
+std::vector<Eigen::VectorXd> residuals_at(const SeparableProblem& problem,
+                                          std::span<const double> q, const Eigen::VectorXd& b);
 
 struct SeparableFit {
   std::vector<double> q;
