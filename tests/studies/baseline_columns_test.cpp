@@ -20,7 +20,7 @@ using Eigen::Index;
 TEST(BaselineColumns, OfATravellingAngleHoldAHyperbolicTangentOfEachWidth) {
   Frame frame = closed_form_frame();
   frame.travels = true;
-  const auto widths = travelling_widths(frame);
+  const auto widths = dry_widths(frame.rate_range);
   const BaselineColumns all = baseline_columns(frame, Equation::torsion, {});
   ASSERT_EQ(all.columns.cols(), all.elastic + static_cast<Index>(widths.size()) + 1);
   for (std::size_t k = 0; k < widths.size(); ++k) {

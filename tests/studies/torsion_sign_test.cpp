@@ -70,7 +70,7 @@ TEST(TorsionSign, IsOfTheMotionAsTheModelSeesIt) {
   const Frame& seen = columns.seen(fit->model);
   ASSERT_GT(seen.rate_range, 1.001 * f.rate_range);
   const Eigen::VectorXd& own = fit->model.own[kTorsion];
-  const Index widths = static_cast<Index>(travelling_widths(seen).size());
+  const Index widths = static_cast<Index>(dry_widths(seen.rate_range).size());
   const double dry = own.segment(own.size() - 1 - widths, widths).sum();
   const ArrayXd viscous = own[own.size() - 1] * seen.torsion_rate / seen.rate_range;
   const ArrayXd sign = rounded_sign(seen.torsion_rate, known.torsion_sign);

@@ -22,11 +22,9 @@ using Eigen::MatrixXd;
 constexpr int kElasticKnots = 7;
 constexpr int kDissipativeKnots = 11;
 constexpr std::size_t kTravelIntervals = 24;
-constexpr Index kDryWidths = 7;
-constexpr double kNarrowest = 1e-3;  // width of dry friction over the largest speed
-constexpr double kWidest = 0.1;
+constexpr double kNarrowest = 1e-3;     // width of dry friction over the largest speed
+constexpr std::size_t kDryWidths = 19;  // two to an octave: to half the largest speed
 constexpr double kFree = -std::numeric_limits<double>::infinity();
-constexpr std::size_t kTravelWidths = 19;  // two to an octave: to half the largest rate
 
 std::vector<double> even_knots(int count) {
   std::vector<double> knots;
@@ -188,10 +186,19 @@ MatrixXd travelling_prior(const Frame& frame, Index f, Index g) {
 // Of half the width: tanh(2u) = 2t/(1 + t^2), t = tanh(u).
 ArrayXd sharper(const ArrayXd& t) { return 2.0 * t / (1.0 + t.square()); }
 
+// Each of dry_widths() is half of the next but one.
+void dry_columns(const ArrayXd& speed, const std::vector<double>& widths,
+                 Eigen::Ref<MatrixXd> out) {
+  for (Index k = out.cols() - 1; k >= 0; --k) {
+    out.col(k) = k + 2 < out.cols() ? sharper(out.col(k + 2))
+                                    : rounded_sign(speed, widths[static_cast<std::size_t>(k)]);
+  }
+}
+
 BaselineColumns travelling_columns(const Frame& frame) {
   const CubicBasis position = positions(frame);
   const Index f = static_cast<Index>(position.size());
-  const auto widths = travelling_widths(frame);
+  const auto widths = dry_widths(frame.rate_range);
   const Index g = static_cast<Index>(widths.size()) + 1;
   BaselineColumns c{MatrixXd::Zero(frame.rows(), f + g), Eigen::VectorXd::Zero(f + g), f, g,
                     travelling_prior(frame, f, g)};
@@ -202,12 +209,7 @@ BaselineColumns travelling_columns(const Frame& frame) {
       c.columns(r, static_cast<Index>(local.first + k)) = local.value[k];
     }
   }
-  // Each width is half of the next but one.
-  for (Index k = g - 2; k >= 0; --k) {
-    c.columns.col(f + k) =
-        k + 2 > g - 2 ? rounded_sign(frame.torsion_rate, widths[static_cast<std::size_t>(k)])
-                      : sharper(c.columns.col(f + k + 2));
-  }
+  dry_columns(frame.torsion_rate, widths, c.columns.middleCols(f, g - 1));
   c.columns.col(f + g - 1) = frame.torsion_rate / frame.rate_range;
   return c;
 }
@@ -215,7 +217,7 @@ BaselineColumns travelling_columns(const Frame& frame) {
 BaselineTorque travelling_torque(const Frame& frame, const Eigen::VectorXd& b) {
   const CubicBasis position = positions(frame);
   const Index f = static_cast<Index>(position.size());
-  const auto widths = travelling_widths(frame);
+  const auto widths = dry_widths(frame.rate_range);
   const Index g = static_cast<Index>(widths.size()) + 1;
   ArrayXd elastic = ArrayXd::Zero(frame.rows());
   for (Index r = 0; r < frame.rows(); ++r) {
@@ -238,15 +240,13 @@ BaselineTorque travelling_torque(const Frame& frame, const Eigen::VectorXd& b) {
 
 // Dry friction rises and saturates in its own way: a mixture of tanh of several widths.
 BaselineColumns motor_columns(const Frame& frame) {
-  const Index n = kDryWidths;
+  const auto widths = dry_widths(frame.speed_range);
+  const Index n = static_cast<Index>(widths.size());
   const Index load = frame.rig == Rig::servo ? 2 : 0;
   BaselineColumns c{MatrixXd(frame.rows(), 1 + n + load), Eigen::VectorXd::Zero(1 + n + load), 1, n,
                     MatrixXd(0, 1 + n + load)};
   c.columns.col(0) = frame.motor_speed;
-  const auto widths = dry_widths(frame);
-  for (Index k = 0; k < n; ++k) {
-    c.columns.col(1 + k) = rounded_sign(frame.motor_speed, widths[static_cast<std::size_t>(k)]);
-  }
+  dry_columns(frame.motor_speed, widths, c.columns.middleCols(1, n));
   if (load > 0) {
     c.columns.col(1 + n) = frame.gravity;
     c.columns.col(2 + n) = frame.load_acceleration;
@@ -272,19 +272,11 @@ Index prior_rows(const Frame& frame, Equation equation) {
   return kElasticKnots + 2 + kDissipativeKnots + 2;
 }
 
-std::vector<double> dry_widths(const Frame& frame) {
+std::vector<double> dry_widths(double largest) {
   std::vector<double> widths;
-  for (Index k = 0; k < kDryWidths; ++k) {
-    widths.push_back(frame.speed_range * kNarrowest *
-                     std::pow(kWidest / kNarrowest, static_cast<double>(k) / (kDryWidths - 1.0)));
+  for (std::size_t k = 0; k < kDryWidths; ++k) {
+    widths.push_back(kNarrowest * largest * std::exp2(0.5 * static_cast<double>(k)));
   }
-  return widths;
-}
-
-std::vector<double> travelling_widths(const Frame& frame) {
-  std::vector<double> widths;
-  for (std::size_t k = 0; k < kTravelWidths; ++k)
-    widths.push_back(kNarrowest * frame.rate_range * std::exp2(0.5 * static_cast<double>(k)));
   return widths;
 }
 

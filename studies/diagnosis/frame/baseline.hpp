@@ -55,11 +55,9 @@ Frame motion_at(const Frame& frame, const std::vector<Eigen::Index>& rows);
 /// Rows of a prior of baseline_columns().
 Eigen::Index prior_rows(const Frame& frame, Equation equation);
 
-/// Widths of the tanh that the motor's dry friction is a mixture of, in the order of its columns,
-/// rad/s.
-std::vector<double> dry_widths(const Frame& frame);
-
-/// The same of the dry friction of an angle that travels, rad/s (m/s).
-std::vector<double> travelling_widths(const Frame& frame);
+/// Widths of the tanh that a dry friction is a mixture of, in the order of its columns: of the
+/// motor over its speed, of an angle that travels over the torsion's rate. From a thousandth of the
+/// largest speed to a half of it, two to an octave; unit of the speed.
+std::vector<double> dry_widths(double largest);
 
 }  // namespace flexspline::studies

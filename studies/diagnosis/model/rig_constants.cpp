@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 void put_dry_friction(const Frame& frame, const VectorXd& heights, DriveSpec& drive) {
-  const auto widths = dry_widths(frame);
+  const auto widths = dry_widths(frame.speed_range);
   Index largest = 0;
   if (!(heights.maxCoeff(&largest) > 0.0)) return;
   drive.motor_coulomb = heights[largest];
@@ -96,7 +96,7 @@ RigConstants rig_constants(const Frame& frame, const DriveModel& model, TorqueGa
   }
   if (!frame.has(Equation::motor)) return constants;
   VectorXd own = model.own[index_of(Equation::motor)];
-  const Index dry = static_cast<Index>(dry_widths(frame).size());
+  const Index dry = static_cast<Index>(dry_widths(frame.speed_range).size());
   if (frame.rig == Rig::servo) {
     constants.gains.motor = torque_of_recorded(frame, own[1 + dry]);
   }

@@ -246,7 +246,7 @@ class Specifier {
                         .coefficients = {own[own.size() - 1]},
                         .valid_to = seen_.rate_range};
     spec().h = {.law = "bounded_modulation", .scale = 1.0, .knots = {}, .coefficients = {}};
-    const auto widths = travelling_widths(seen_);
+    const auto widths = dry_widths(seen_.rate_range);
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const double coulomb = own[travel + static_cast<Index>(k)];
       if (!(coulomb > 0.0)) continue;

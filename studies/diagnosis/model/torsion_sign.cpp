@@ -20,7 +20,7 @@ Eigen::VectorXd dry_friction(const DriveModel& model, Index widths) {
 
 std::vector<SignPart> torsion_sign(const Frame& frame, const DriveModel& model) {
   if (!frame.travels) return {{1.0, std::max(frame.slow_rate, 1e-3 * frame.rate_range)}};
-  const auto widths = travelling_widths(frame);
+  const auto widths = dry_widths(frame.rate_range);
   const Eigen::VectorXd dry = dry_friction(model, static_cast<Index>(widths.size()));
   if (!(dry.sum() > 0.0)) return {{1.0, 0.01 * frame.rate_range}};
   std::vector<SignPart> parts;
