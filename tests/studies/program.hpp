@@ -41,7 +41,7 @@ struct Call {
   Stream err = Stream::kept;
   double limit = 120.0;  ///< s until it is asked to stop, from when it listens and is ready
   int stop_signal = SIGTERM;
-  std::function<bool()> ready{};   ///< what it must have come to before that time runs
+  std::function<bool()> ready{};  ///< what it must have come to before that time runs
   std::filesystem::path folder{};  ///< to run in; empty: that of the tests
 };
 
