@@ -29,11 +29,7 @@ ArrayXd prediction_of(ModelColumns& columns, const DriveModel& model, Equation e
   ArrayXd sum = equation == Equation::torsion
                     ? baseline_torque(seen, model.torsion_shape, own).sum()
                     : ArrayXd(shared_baseline(seen, equation, {})->columns * own);
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
-      sum += model.coefficients[k][static_cast<Index>(j)] * (*causes[k])[j];
-    }
-  }
+  add_causes(causes, model.coefficients, 1.0, sum);
   return sum;
 }
 

@@ -23,6 +23,15 @@ std::vector<std::vector<double>> changes_of(const DriveModel& model) {
 
 }  // namespace
 
+void add_causes(const std::vector<std::shared_ptr<const Columns>>& causes,
+                const std::vector<Eigen::VectorXd>& coefficients, double times, ArrayXd& sum) {
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
+      sum += times * coefficients[k][static_cast<Eigen::Index>(j)] * (*causes[k])[j];
+    }
+  }
+}
+
 std::span<const double> baseline_shape(const DriveModel& model, Equation equation) {
   if (equation == Equation::torsion) return model.torsion_shape;
   return {};

@@ -46,6 +46,11 @@ class ModelColumns {
   std::list<Built> built_;                       ///< on the frame seen last; the latest first
 };
 
+/// Adds to a sum, so many times, what causes add to an equation with their coefficients.
+void add_causes(const std::vector<std::shared_ptr<const Columns>>& causes,
+                const std::vector<Eigen::VectorXd>& coefficients, double times,
+                Eigen::ArrayXd& sum);
+
 /// Shapes of the baseline in one equation.
 std::span<const double> baseline_shape(const DriveModel& model, Equation equation);
 

@@ -141,11 +141,7 @@ Eigen::VectorXd ModelProblem::residual_of(const DriveModel& model, std::size_t e
   const auto causes = columns_.causes_at(model, equation);
   const Frame& seen = columns_.seen(model);
   ArrayXd left = target_of(seen, equation);
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    for (std::size_t j = 0; j < causes[k]->size(); ++j) {
-      left -= model.coefficients[k][static_cast<Index>(j)] * (*causes[k])[j];
-    }
-  }
+  add_causes(causes, model.coefficients, -1.0, left);
   return rows_[e].of(left) - weighted_sum(seen, equation, baseline_shape(model, equation), rows_[e],
                                           model.own[index_of(equation)]);
 }
