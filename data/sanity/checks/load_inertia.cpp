@@ -29,7 +29,9 @@ std::vector<Factor> inertias(const ObservedSet& all) {
                                  o.load_angle.sin(), ArrayXd::Ones(o.time.size())},
                                 o.effort, o.usable);
     if (std::abs(fit.coefficient[0]) < kClear * fit.error[0]) continue;
-    list.push_back({o.recording->id, fit.coefficient[0] / stated});
+    const double factor = fit.coefficient[0] / stated;
+    if (is_off(factor, kMostOff) && !refutes(fit, 0, stated)) continue;
+    list.push_back({o.recording->id, factor});
   }
   return list;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -21,17 +22,18 @@ constexpr SanityVerdict kOtherUnits{"check_units", Severity::error, kScale};
 constexpr double kMostOff = 1.8;
 constexpr double kLoaded =
     0.3;  // of the largest range of torque: below it noise flattens the slope
-constexpr double kClear = 20.0;   // standard errors, of white noise
-constexpr double kClearly = 0.9;  // of a sum of squares
+constexpr double kClear = 20.0;  // standard errors, of white noise
 
-double left_by(const Regression& fit, const ArrayXd& y, const ArrayXd& usable) {
-  const double mean = (y * usable).sum() / std::max(usable.sum(), 1.0);
-  return (1.0 - fit.explained) * ((y - mean) * usable).square().sum();
+/// How far a slope is from 1; a negative one furthest.
+double off_by(const Regression& fit) {
+  const double slope = fit.coefficient[0];
+  return slope > 0.0 ? std::abs(std::log(slope)) : std::numeric_limits<double>::infinity();
 }
 
-/// The motor torque over J theta'' + tau/N, but where an error of tau alone leaves clearly less: a
-/// motor that turns mostly its own inertia makes a small error of its torque a large one of tau's,
-/// and where load and motor move as one nothing tells the two apart.
+/// The motor torque over J theta'' + tau/N, or what is beside J theta'' over tau/N, whichever is
+/// nearer to 1. A motor that turns mostly its own inertia makes a small error of its torque a large
+/// one of tau's; an angle that ripples makes its acceleration a column of errors, which flatten the
+/// slope over the sum. A mistaken unit or ratio shows in both.
 Regression slope_of(const Observed& o, double ratio, double inertia) {
   const ArrayXd transmitted = o.effort / ratio;
   const ArrayXd turning = inertia * o.motor_acceleration;
@@ -41,11 +43,9 @@ Regression slope_of(const Observed& o, double ratio, double inertia) {
         o.usable);
   };
   const ArrayXd rest = o.drive - turning;
-  const Regression of_transmitted = beside_friction(transmitted, rest);
-  const Regression of_all = beside_friction(turning + transmitted, o.drive);
-  const bool clearly =
-      left_by(of_transmitted, rest, o.usable) < kClearly * left_by(of_all, o.drive, o.usable);
-  return clearly ? of_transmitted : of_all;
+  return std::min(beside_friction(transmitted, rest),
+                  beside_friction(turning + transmitted, o.drive),
+                  [](const Regression& a, const Regression& b) { return off_by(a) < off_by(b); });
 }
 
 /// Slope of the motor torque over tau/N beside inertia and frictions: 1, but for the losses. The
@@ -66,6 +66,7 @@ std::vector<Factor> slopes(const ObservedSet& all) {
                                        ArrayXd::Ones(o.time.size()), o.motor_acceleration},
                                       o.drive, o.usable);
     if (std::abs(fit.coefficient[0]) < kClear * fit.error[0]) continue;
+    if (is_off(fit.coefficient[0], kMostOff) && !refutes(fit, 0, 1.0)) continue;
     list.push_back({o.recording->id, fit.coefficient[0]});
   }
   return list;

@@ -47,12 +47,10 @@ std::optional<SanityFinding> rescaled(const Accepted& accepted, const Eigen::Vec
   return found;
 }
 
-// Friction and what a joint carries may be most of a torque, a joint whose torque is late has twice
-// its friction the wrong way round at every reversal, and a motor that is late and kicked lacks the
-// kick.
-bool may_be_large(const Frame& frame, const CauseForm& form) {
-  return form.friction || form.unbounded || form.trails ||
-         (form.transform != nullptr && frame.travels);
+// Friction and what a joint carries may be most of a torque, and a motor that is late and kicked
+// lacks the kick. A change of the motion is as large as the spring is stiff and the motion fast.
+bool may_be_large(const CauseForm& form) {
+  return form.friction || form.unbounded || form.trails || form.transform != nullptr;
 }
 
 // What moves has a mass: less of it than half of what is stated says that the acceleration or the
@@ -67,13 +65,11 @@ std::optional<SanityFinding> takes_away(const Frame& frame, const Accepted& acce
       fmt::format("{:.3g} kg m2 beside the {:.3g} that are stated", a[0], frame.*stated));
 }
 
-std::optional<SanityFinding> too_large(const Frame& frame, const Accepted& accepted,
-                                       const Limits& limits) {
+std::optional<SanityFinding> too_large(const Accepted& accepted, const Limits& limits) {
   const Trial& trial = accepted.trial;
-  const CauseForm& form = *trial.cause.form;
-  const double size = form.transform != nullptr ? std::min(trial.size, trial.change) : trial.size;
-  if (may_be_large(frame, form) || size < limits.half) return std::nullopt;
-  return finding(*trial.cause.row, fmt::format("of {:.0f} % of the largest torque", 100.0 * size));
+  if (may_be_large(*trial.cause.form) || trial.size < limits.half) return std::nullopt;
+  return finding(*trial.cause.row,
+                 fmt::format("of {:.0f} % of the largest torque", 100.0 * trial.size));
 }
 
 // Share of the variance of the measured torque that the final model follows, in the equation to
@@ -134,7 +130,7 @@ std::vector<SanityFinding> implausible(const Frame& frame, const Selection& s,
       list.push_back(std::move(*gain));
     } else if (auto mass = takes_away(frame, s.accepted[i], a, limits)) {
       list.push_back(std::move(*mass));
-    } else if (auto large = too_large(frame, s.accepted[i], limits)) {
+    } else if (auto large = too_large(s.accepted[i], limits)) {
       list.push_back(std::move(*large));
     }
   }

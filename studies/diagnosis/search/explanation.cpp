@@ -5,7 +5,8 @@
 
 namespace flexspline::studies {
 bool is_left(const CoordinateScore& score, const Limits& limits) {
-  return score.statistic > limits.gain && score.share > limits.tenth;
+  return score.statistic > limits.gain && score.share > limits.tenth &&
+         score.size > limits.trifle();
 }
 
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {
@@ -27,15 +28,16 @@ bool is_beyond_noise(const Frame& frame, const HoldoutProof& h, const Limits& li
          own > limits.trifle() * frame.torque_range;
 }
 
-double worst_misfit(const Frame& frame, const Findings& findings) {
-  double worst = 0.0;
-  for (Equation equation : frame.equations) {
+bool is_fitted_beyond_noise(const Frame& frame, const Findings& findings, const Limits& limits) {
+  return std::ranges::any_of(frame.equations, [&](Equation equation) {
     const std::size_t e = index_of(equation);
     const auto& weight = findings.weight[e];
     const double rows = static_cast<double>((weight > 0.0).count());
-    worst = std::max(worst, (findings.fit.residual[e] * weight).square().sum() / rows);
-  }
-  return worst;
+    const double squares = (findings.fit.residual[e] * weight).square().sum();
+    const double own = std::sqrt(std::max(squares - rows, 0.0) / weight.square().sum());
+    return squares > limits.as_noise() * rows &&
+           own > limits.trifle() * frame.largest_torque(equation);
+  });
 }
 
 }  // namespace flexspline::studies

@@ -4,7 +4,8 @@
 
 namespace flexspline::studies {
 
-/// True where a coordinate orders more of a residual than noise and small errors of form do.
+/// True where a coordinate orders more of a residual than noise and small errors of form do, and
+/// no trifle.
 bool is_left(const CoordinateScore& score, const Limits& limits);
 
 /// Of the causes too small to be named the one that takes most away, if it is worth as much as a
@@ -17,7 +18,7 @@ const Accepted* left_unnamed(const Selection& s, const Limits& limits);
 /// trifle.
 bool is_beyond_noise(const Frame& frame, const HoldoutProof& proof, const Limits& limits);
 
-/// Largest mean square over noise of an equation.
-double worst_misfit(const Frame& frame, const Findings& findings);
+/// The same of an equation on the rows that it was fitted to.
+bool is_fitted_beyond_noise(const Frame& frame, const Findings& findings, const Limits& limits);
 
 }  // namespace flexspline::studies

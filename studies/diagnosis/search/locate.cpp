@@ -97,7 +97,8 @@ class Scan {
         weight_(findings.weight[index_of(equation)]),
         prediction_(findings.fit.prediction[index_of(equation)]),
         rows_(static_cast<double>((weight_ > 0.0).count())),
-        colour_(findings.noise[index_of(equation)].colour) {}
+        colour_(findings.noise[index_of(equation)].colour),
+        largest_(frame.largest_torque(equation)) {}
 
   std::vector<CoordinateScore> all() {
     const ArrayXd& speed = speed_of(f_, equation_);
@@ -145,6 +146,7 @@ class Scan {
     s.statistic =
         n * std::log(r.before / r.after) - r.columns * std::log(n) - 2.0 * std::log(tried);
     s.share = 1.0 - r.after / r.before;
+    s.size = std::sqrt((r.before - r.after) / weight_.square().sum()) / largest_;
     s.says =
         fmt::format("what is left of the {} equation follows the {}", name_of(equation_), words);
     scores_.push_back(std::move(s));
@@ -208,6 +210,7 @@ class Scan {
   const ArrayXd& prediction_;
   double rows_;
   double colour_;
+  double largest_;  // torque of the equation
   std::vector<CoordinateScore> scores_;
 };
 

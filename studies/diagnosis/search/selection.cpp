@@ -180,8 +180,8 @@ Result<void> leave_out(const Frame& frame, Selection& s, std::size_t cause,
 void locate_misfit(const Frame& frame, const Limits& limits, Selection& s) {
   s.before = locate(frame, s.baseline);
   s.after = s.accepted.empty() ? locate_anything(frame, s.final) : locate(frame, s.final);
-  s.remainder = (!s.after.empty() && is_left(s.after.front(), limits)) ||
-                worst_misfit(frame, s.final) > limits.as_noise();
+  s.remainder = std::ranges::any_of(s.after, [&](const auto& c) { return is_left(c, limits); }) ||
+                is_fitted_beyond_noise(frame, s.final, limits);
 }
 
 }  // namespace flexspline::studies
