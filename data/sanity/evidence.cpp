@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -79,18 +81,20 @@ Regression regression(const std::vector<ArrayXd>& columns, const ArrayXd& y,
   const double mean = b.sum() / rows;
   const double variance = b.squaredNorm() - rows * mean * mean;
   const Eigen::VectorXd inverse = solver.solve(Eigen::MatrixXd::Identity(count, count)).diagonal();
+  const double noise = std::sqrt(left / std::max(rows - static_cast<double>(count), 1.0));
   Regression fit;
-  fit.freedom = std::max(rows - static_cast<double>(count), 1.0);
-  const double noise = std::sqrt(left / fit.freedom);
   fit.coefficient = solution.cwiseQuotient(scale);
   fit.error = noise * inverse.cwiseMax(0.0).cwiseSqrt().cwiseQuotient(scale);
   fit.explained = variance > 0.0 ? 1.0 - left / variance : 0.0;
   return fit;
 }
 
-bool refutes(const Regression& fit, Index column, double value) {
-  const double off = fit.coefficient[column] - value;
-  return off * off > fit.freedom * fit.error[column] * fit.error[column];
+Regression nearer_to(double value, Regression a, Regression b) {
+  const auto off = [&](const Regression& fit) {
+    const double factor = fit.coefficient[0] / value;
+    return factor > 0.0 ? std::abs(std::log(factor)) : std::numeric_limits<double>::infinity();
+  };
+  return off(b) < off(a) ? std::move(b) : std::move(a);
 }
 
 ArrayXd smooth_sign(const ArrayXd& x) {

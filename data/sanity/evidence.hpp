@@ -35,15 +35,14 @@ struct Regression {
   Eigen::VectorXd coefficient;
   Eigen::VectorXd error;   ///< standard errors, of white residuals
   double explained = 0.0;  ///< share of the variance of y
-  double freedom = 1.0;    ///< rows less columns
 };
 Regression regression(const std::vector<Eigen::ArrayXd>& columns, const Eigen::ArrayXd& y,
                       const Eigen::ArrayXd& usable);
 
-/// True where a column held at a value would leave more than twice the sum of squares. What a
-/// regression's form does not follow is no noise: along columns that are much alike it moves
-/// coefficients far beyond their standard errors, and leaves as much as it moves.
-bool refutes(const Regression& fit, Eigen::Index column, double value);
+/// The one whose first coefficient is nearer to a value, in the logarithm; one of its sign before
+/// one of the other. What a regression's form does not follow moves coefficients far beyond their
+/// standard errors, along columns that are much alike; a mistaken unit or sign shows with either.
+Regression nearer_to(double value, Regression a, Regression b);
 
 /// x / sqrt(x^2 + width^2), the width a fifth of the rms.
 Eigen::ArrayXd smooth_sign(const Eigen::ArrayXd& x);

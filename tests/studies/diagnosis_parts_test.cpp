@@ -96,6 +96,14 @@ const std::vector<Located>& located_signals() {
       {"lag", torsion, [](const Frame& f) { return unit(f.torque_rate); }},
       {"reversal_memory", torsion, since_reversal},
       {"time", load, [](const Frame& f) { return unit(f.clock); }},
+      {"time", motor,
+       [](const Frame& f) {
+         ArrayXd course = ArrayXd::Zero(f.rows());
+         for (const Segment& s : f.segments) {
+           course.segment(s.first, s.count) = ArrayXd::LinSpaced(s.count, -1.0, 1.0);
+         }
+         return ArrayXd(course * f.motor_speed.sign());
+       }},
       {"constant", motor, [](const Frame& f) { return ArrayXd(ArrayXd::Ones(f.rows())); }},
       {"load_angle", load,
        [](const Frame& f) { return ArrayXd((-(10.0 * f.load_angle).square()).exp()); }},
@@ -151,6 +159,20 @@ TEST(Locate, ColouredNoiseCountsForLess) {
   for (EquationNoise& noise : findings.noise) noise.colour = 4.0;
   const double coloured = locate(frame, findings).front().statistic;
   EXPECT_LT(coloured, 0.3 * white);
+}
+
+// Of a signal that its columns hold: its rms over the largest torque of the equation.
+TEST(Locate, SaysHowMuchTorqueIsOrdered) {
+  const Frame frame = closed_form_frame();
+  for (const double level : {2.0, 4.0}) {
+    const auto top =
+        locate(frame, findings_of(frame, Equation::motor, ArrayXd::Constant(frame.rows(), level)));
+    const auto of_motor = std::ranges::find_if(top, [](const CoordinateScore& score) {
+      return score.equation == Equation::motor && score.coordinate == "constant";
+    });
+    ASSERT_NE(of_motor, top.end());
+    EXPECT_NEAR(of_motor->size * frame.motor_torque.abs().maxCoeff(), level, 0.03 * level);
+  }
 }
 
 TEST(Locate, TheWorstWindowIsWhereTheResidualIsLargest) {

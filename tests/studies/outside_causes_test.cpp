@@ -22,7 +22,12 @@ const CauseForm& form_of(std::string_view id) {
 Columns columns_of(const CauseForm& form, Equation equation, const Frame& frame) {
   Reference reference;
   reference.elastic = frame.smooth_torque;
-  return form.columns(equation, frame, reference, {});
+  std::vector<double> middle;
+  if (form.shapes) {
+    for (const Shape& shape : form.shapes(frame))
+      middle.push_back(0.5 * (shape.lower + shape.upper));
+  }
+  return form.columns(equation, frame, reference, middle);
 }
 
 TEST(OutsideCauses, AreNoEffectsAndStandInNoModelFile) {
@@ -41,7 +46,7 @@ TEST(OutsideCauses, AreNoEffectsAndStandInNoModelFile) {
 // over the ratio.
 TEST(OutsideCauses, OfATorqueSensorAreTheSameReadingInEveryEquation) {
   const Frame frame = closed_form_frame();
-  for (const char* id : {"torque_sensor_memory", "torque_sensor_curvature"}) {
+  for (const char* id : {"torque_sensor_memory", "torque_sensor_curvature", "torque_sensor_jump"}) {
     const CauseForm& form = form_of(id);
     const auto torsion = columns_of(form, Equation::torsion, frame);
     const auto load = columns_of(form, Equation::load, frame);
@@ -78,6 +83,37 @@ TEST(OutsideCauses, ACurveHasNoPartOfAGain) {
     EXPECT_NEAR(column.abs().maxCoeff(), 40.0, 1e-9);
     EXPECT_NEAR(column[4000], 0.0, 0.01) << "at no torque";
   }
+}
+
+TEST(OutsideCauses, AJumpIsNoneBeforeItsTimeAndWholeAfterIt) {
+  const Frame frame = closed_form_frame();
+  const auto columns = columns_of(form_of("torque_sensor_jump"), Equation::load, frame);
+  ASSERT_EQ(columns.size(), 1U);
+  const Eigen::Array<bool, Eigen::Dynamic, 1> early = frame.clock < 0.4 * frame.session;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> late = frame.clock > 0.6 * frame.session;
+  ASSERT_TRUE(early.any() && late.any());
+  EXPECT_LT(early.select(columns[0], 0.0).abs().maxCoeff(), 1e-3);
+  EXPECT_LT(late.select(columns[0] - 1.0, 0.0).abs().maxCoeff(), 1e-3);
+}
+
+// A knock in the middle of a session, which a drift was named for.
+TEST(OutsideCauses, ASensorWhoseZeroJumpsIsUnexplained) {
+  auto set = drawn_case(Rig::locked, 51).recordings;
+  double session = 0.0, largest = 0.0;
+  for (const Recording& r : set.recordings) {
+    session = std::max(session, r.start_s);
+    for (double torque : r.channels.at(Quantity::transmitted_torque)) {
+      largest = std::max(largest, std::abs(torque));
+    }
+  }
+  for (Recording& r : set.recordings) {
+    if (r.start_s < 0.5 * session) continue;
+    for (double& torque : r.channels.at(Quantity::transmitted_torque)) torque += 0.03 * largest;
+  }
+  const Diagnosis d = diagnosed(set);
+  EXPECT_TRUE(d.causes.empty()) << names(d).front();
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.says;
+  EXPECT_NE(d.says.find("zero jumps"), std::string::npos) << d.says;
 }
 
 // Hysteresis of the sensor, which the gear's own was named for.

@@ -132,6 +132,7 @@ TEST(Implausible, IsMoreThanHalfOfTheTorqueOrAGainOffByAFactor) {
   EXPECT_EQ(codes("torque_sensor_gain", 0.2, -1.99), "check_sign ");
   EXPECT_EQ(codes("torque_sensor_gain", 0.2, 0.1), "");
   EXPECT_EQ(codes("presliding_hysteresis", 0.9, 1.0), "") << "friction may be all of a torque";
+  EXPECT_EQ(codes("kinematic_error", 0.6, 1.0), "") << "a stiff spring and a fast motion make it";
   EXPECT_EQ(codes("inertia_torque", 0.6, 1.0), "") << "nobody said what a specimen carries";
 }
 

@@ -19,19 +19,20 @@ constexpr SanityVerdict kOtherInertia{
 constexpr double kMostOff = 2.0;
 constexpr double kClear = 20.0;  // standard errors, of white noise
 
-/// J in tau = J theta_l'' + B theta_l' + c |.| + m sin(theta_l), over what the set states.
+/// J in tau = J theta_l'' + B theta_l' + c |.| + m sin(theta_l), over what the set states; or
+/// without gravity, which on short strokes is much like an inertia.
 std::vector<Factor> inertias(const ObservedSet& all) {
   std::vector<Factor> list;
   const double stated = all.constant("load_inertia_kgm2");
   for (const Observed& o : all.recordings) {
     if (o.effort.size() == 0 || o.load_angle.size() == 0) continue;
-    const auto fit = regression({o.load_acceleration, o.load_speed, smooth_sign(o.load_speed),
-                                 o.load_angle.sin(), ArrayXd::Ones(o.time.size())},
-                                o.effort, o.usable);
+    std::vector<ArrayXd> columns = {o.load_acceleration, o.load_speed, smooth_sign(o.load_speed),
+                                    ArrayXd::Ones(o.time.size())};
+    const Regression level = regression(columns, o.effort, o.usable);
+    columns.push_back(o.load_angle.sin());
+    const Regression fit = nearer_to(stated, level, regression(columns, o.effort, o.usable));
     if (std::abs(fit.coefficient[0]) < kClear * fit.error[0]) continue;
-    const double factor = fit.coefficient[0] / stated;
-    if (is_off(factor, kMostOff) && !refutes(fit, 0, stated)) continue;
-    list.push_back({o.recording->id, factor});
+    list.push_back({o.recording->id, fit.coefficient[0] / stated});
   }
   return list;
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -24,12 +23,6 @@ constexpr double kLoaded =
     0.3;  // of the largest range of torque: below it noise flattens the slope
 constexpr double kClear = 20.0;  // standard errors, of white noise
 
-/// How far a slope is from 1; a negative one furthest.
-double off_by(const Regression& fit) {
-  const double slope = fit.coefficient[0];
-  return slope > 0.0 ? std::abs(std::log(slope)) : std::numeric_limits<double>::infinity();
-}
-
 /// The motor torque over J theta'' + tau/N, or what is beside J theta'' over tau/N, whichever is
 /// nearer to 1. A motor that turns mostly its own inertia makes a small error of its torque a large
 /// one of tau's; an angle that ripples makes its acceleration a column of errors, which flatten the
@@ -43,9 +36,8 @@ Regression slope_of(const Observed& o, double ratio, double inertia) {
         o.usable);
   };
   const ArrayXd rest = o.drive - turning;
-  return std::min(beside_friction(transmitted, rest),
-                  beside_friction(turning + transmitted, o.drive),
-                  [](const Regression& a, const Regression& b) { return off_by(a) < off_by(b); });
+  return nearer_to(1.0, beside_friction(transmitted, rest),
+                   beside_friction(turning + transmitted, o.drive));
 }
 
 /// Slope of the motor torque over tau/N beside inertia and frictions: 1, but for the losses. The
@@ -66,7 +58,6 @@ std::vector<Factor> slopes(const ObservedSet& all) {
                                        ArrayXd::Ones(o.time.size()), o.motor_acceleration},
                                       o.drive, o.usable);
     if (std::abs(fit.coefficient[0]) < kClear * fit.error[0]) continue;
-    if (is_off(fit.coefficient[0], kMostOff) && !refutes(fit, 0, 1.0)) continue;
     list.push_back({o.recording->id, fit.coefficient[0]});
   }
   return list;

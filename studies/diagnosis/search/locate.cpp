@@ -68,6 +68,18 @@ Columns by_recording(const Frame& f, const ArrayXd& direction) {
   return columns;
 }
 
+// What grows or fades in the course of a recording, and begins anew in the next.
+Columns within_recordings(const Frame& f, const ArrayXd& direction) {
+  Columns columns;
+  for (const Segment& s : f.segments) {
+    ArrayXd course = ArrayXd::Zero(f.rows());
+    course.segment(s.first, s.count) = ArrayXd::LinSpaced(s.count, -1.0, 1.0);
+    columns.push_back(course);
+    columns.push_back(course * direction);
+  }
+  return columns;
+}
+
 /// Sums of squares with and without columns, over weighted rows.
 struct Reduction {
   double before = 0.0;
@@ -114,7 +126,10 @@ class Scan {
           "way since the last reversal");
     score("lag", {rate_of(f_, prediction_)}, "rate of the torque itself");
     score("time", by_recording(f_, direction), "time of the session");
-    score("constant", {ArrayXd::Ones(f_.rows())}, "nothing: it is constant");
+    score("time", within_recordings(f_, direction), "time within each recording");
+    score("constant", {ArrayXd::Ones(f_.rows())}, "");
+    scores_.back().says =
+        fmt::format("what is left of the {} equation is constant", name_of(equation_));
     if (f_.rig == Rig::free) {
       score("load_angle", bins(f_.load_angle, kBins), "load angle");
       turns();
