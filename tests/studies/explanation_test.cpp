@@ -7,18 +7,18 @@
 namespace flexspline::studies {
 namespace {
 
-TEST(IsLeft, AsksForEvidenceAShareOfTheResidualAndATorqueOfInterest) {
+TEST(IsLeft, AsksForEvidenceAShareOfTheResidualAndASizeOfInterest) {
   const Limits limits;
   const auto score = [](double statistic, double share, double size) {
     return CoordinateScore{Equation::torsion, "torsion", statistic, share, size, ""};
   };
-  EXPECT_TRUE(is_left(score(100.0, 0.3, 0.004), limits));
-  EXPECT_FALSE(is_left(score(10.0, 0.3, 0.004), limits)) << "noise does as much";
-  EXPECT_FALSE(is_left(score(100.0, 0.05, 0.004), limits)) << "of little of what is left";
-  EXPECT_FALSE(is_left(score(100.0, 0.3, 0.001), limits)) << "below the floor of interest";
+  EXPECT_TRUE(is_left(score(100.0, 0.3, 0.01), limits));
+  EXPECT_FALSE(is_left(score(10.0, 0.3, 0.01), limits)) << "noise does as much";
+  EXPECT_FALSE(is_left(score(100.0, 0.05, 0.01), limits)) << "of little of what is left";
+  EXPECT_FALSE(is_left(score(100.0, 0.3, 0.003), limits)) << "below the floor of interest";
   Limits finer;
-  finer.interest = 0.002;
-  EXPECT_TRUE(is_left(score(100.0, 0.3, 0.001), finer)) << "which the user sets";
+  finer.interest = 0.004;
+  EXPECT_TRUE(is_left(score(100.0, 0.3, 0.003), finer)) << "which the user sets";
 }
 
 // Residuals of three times the noise: of a torque sensor that is nearly free of noise they may be

@@ -22,12 +22,7 @@ const CauseForm& form_of(std::string_view id) {
 Columns columns_of(const CauseForm& form, Equation equation, const Frame& frame) {
   Reference reference;
   reference.elastic = frame.smooth_torque;
-  std::vector<double> middle;
-  if (form.shapes) {
-    for (const Shape& shape : form.shapes(frame))
-      middle.push_back(0.5 * (shape.lower + shape.upper));
-  }
-  return form.columns(equation, frame, reference, middle);
+  return form.columns(equation, frame, reference, {});
 }
 
 TEST(OutsideCauses, AreNoEffectsAndStandInNoModelFile) {
@@ -46,7 +41,7 @@ TEST(OutsideCauses, AreNoEffectsAndStandInNoModelFile) {
 // over the ratio.
 TEST(OutsideCauses, OfATorqueSensorAreTheSameReadingInEveryEquation) {
   const Frame frame = closed_form_frame();
-  for (const char* id : {"torque_sensor_memory", "torque_sensor_curvature", "torque_sensor_jump"}) {
+  for (const char* id : {"torque_sensor_memory", "torque_sensor_curvature"}) {
     const CauseForm& form = form_of(id);
     const auto torsion = columns_of(form, Equation::torsion, frame);
     const auto load = columns_of(form, Equation::load, frame);
@@ -83,38 +78,6 @@ TEST(OutsideCauses, ACurveHasNoPartOfAGain) {
     EXPECT_NEAR(column.abs().maxCoeff(), 40.0, 1e-9);
     EXPECT_NEAR(column[4000], 0.0, 0.01) << "at no torque";
   }
-}
-
-TEST(OutsideCauses, AJumpIsNoneBeforeItsRecordingAndWholeFromItOn) {
-  const Frame frame = closed_form_frame();
-  const auto columns = columns_of(form_of("torque_sensor_jump"), Equation::load, frame);
-  ASSERT_EQ(columns.size(), 1U);
-  EXPECT_EQ(columns[0].minCoeff(), 0.0);
-  EXPECT_EQ(columns[0].maxCoeff(), 1.0);
-  for (const Segment& s : frame.segments) {
-    const double jumped = frame.clock[s.first] < 0.5 * frame.session ? 0.0 : 1.0;
-    EXPECT_TRUE((columns[0].segment(s.first, s.count) == jumped).all()) << s.id;
-  }
-}
-
-// A knock in the middle of a session, which a drift was named for.
-TEST(OutsideCauses, ASensorWhoseZeroJumpsIsUnexplained) {
-  auto set = drawn_case(Rig::locked, 51).recordings;
-  double session = 0.0, largest = 0.0;
-  for (const Recording& r : set.recordings) {
-    session = std::max(session, r.start_s);
-    for (double torque : r.channels.at(Quantity::transmitted_torque)) {
-      largest = std::max(largest, std::abs(torque));
-    }
-  }
-  for (Recording& r : set.recordings) {
-    if (r.start_s < 0.5 * session) continue;
-    for (double& torque : r.channels.at(Quantity::transmitted_torque)) torque += 0.03 * largest;
-  }
-  const Diagnosis d = diagnosed(set);
-  EXPECT_TRUE(d.causes.empty()) << names(d).front();
-  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.says;
-  EXPECT_NE(d.says.find("zero jumps"), std::string::npos) << d.says;
 }
 
 // Hysteresis of the sensor, which the gear's own was named for.

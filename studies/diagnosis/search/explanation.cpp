@@ -6,7 +6,7 @@
 namespace flexspline::studies {
 bool is_left(const CoordinateScore& score, const Limits& limits) {
   return score.statistic > limits.gain && score.share > limits.tenth &&
-         score.size > limits.trifle();
+         score.size > limits.half * limits.interest;
 }
 
 const Accepted* left_unnamed(const Selection& s, const Limits& limits) {

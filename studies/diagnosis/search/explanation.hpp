@@ -5,7 +5,7 @@
 namespace flexspline::studies {
 
 /// True where a coordinate orders more of a residual than noise and small errors of form do, and
-/// no trifle.
+/// half of a size of interest.
 bool is_left(const CoordinateScore& score, const Limits& limits);
 
 /// Of the causes too small to be named the one that takes most away, if it is worth as much as a

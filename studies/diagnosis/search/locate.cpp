@@ -85,6 +85,7 @@ struct Reduction {
   double before = 0.0;
   double after = 0.0;
   int columns = 0;
+  double largest = 0.0;  ///< that the columns take away
 };
 
 Reduction reduction(const ArrayXd& residual, const ArrayXd& weight, const Columns& columns) {
@@ -95,8 +96,10 @@ Reduction reduction(const ArrayXd& residual, const ArrayXd& weight, const Column
   Eigen::MatrixXd normal = x.transpose() * x;
   normal.diagonal().array() += kRidge * normal.trace() / static_cast<double>(k) + 1e-300;
   const Eigen::VectorXd right = x.transpose() * y;
+  const Eigen::VectorXd b = normal.ldlt().solve(right);
   Reduction r{y.squaredNorm(), 0.0, static_cast<int>(k)};
-  r.after = std::max(r.before - right.dot(normal.ldlt().solve(right)), 1e-12 * r.before);
+  r.after = std::max(r.before - right.dot(b), 1e-12 * r.before);
+  r.largest = (weight > 0.0).select((x * b).array() / weight, 0.0).abs().maxCoeff();
   return r;
 }
 
@@ -161,7 +164,7 @@ class Scan {
     s.statistic =
         n * std::log(r.before / r.after) - r.columns * std::log(n) - 2.0 * std::log(tried);
     s.share = 1.0 - r.after / r.before;
-    s.size = std::sqrt((r.before - r.after) / weight_.square().sum()) / largest_;
+    s.size = r.largest / largest_;
     s.says =
         fmt::format("what is left of the {} equation follows the {}", name_of(equation_), words);
     scores_.push_back(std::move(s));

@@ -13,7 +13,7 @@ struct CoordinateScore {
   std::string coordinate;
   double statistic = 0.0;  ///< n ln(SS0/SS1) less the Bayesian penalty, n over the noise's colour
   double share = 0.0;      ///< of the weighted sum of squares that it takes away
-  double size = 0.0;       ///< rms of what it takes away over the equation's largest torque
+  double size = 0.0;       ///< largest that it takes away over the equation's largest torque
   std::string says;
 };
 
