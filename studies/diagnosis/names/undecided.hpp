@@ -14,9 +14,9 @@ namespace flexspline::studies {
 Result<Diagnosis> mistaken_diagnosis(const RecordingSet& set,
                                      std::vector<data::SanityFinding> findings);
 
-/// Causes that are no physics: larger than half of the torque, but for friction across the gear, an
-/// inertia that nothing bounds and a late torque of a motor or of a joint that travels, which may
-/// be; gains of a channel that are off by half or more; inertias that take half or more of what is
+/// Causes that are no physics: more than half of the torque, but for friction across the gear, an
+/// inertia that nothing bounds, a late torque of a motor and changes of the motion, which may be;
+/// gains of a channel that are off by half or more; inertias that take half or more of what is
 /// stated away.
 std::vector<data::SanityFinding> implausible(const Frame& frame, const Selection& selection,
                                              const Limits& limits);
