@@ -161,16 +161,16 @@ TEST(Locate, ColouredNoiseCountsForLess) {
   EXPECT_LT(coloured, 0.3 * white);
 }
 
-// Of a signal that its columns hold: its rms over the largest torque of the equation.
+// Of a signal that its columns hold: the largest of it over the largest torque of the equation.
 TEST(Locate, SaysHowMuchTorqueIsOrdered) {
   const Frame frame = closed_form_frame();
   for (const double level : {2.0, 4.0}) {
-    const auto top =
+    const auto scores =
         locate(frame, findings_of(frame, Equation::motor, ArrayXd::Constant(frame.rows(), level)));
-    const auto of_motor = std::ranges::find_if(top, [](const CoordinateScore& score) {
+    const auto of_motor = std::ranges::find_if(scores, [](const CoordinateScore& score) {
       return score.equation == Equation::motor && score.coordinate == "constant";
     });
-    ASSERT_NE(of_motor, top.end());
+    ASSERT_NE(of_motor, scores.end());
     EXPECT_NEAR(of_motor->size * frame.motor_torque.abs().maxCoeff(), level, 0.03 * level);
   }
 }

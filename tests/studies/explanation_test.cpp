@@ -1,4 +1,4 @@
-// What is left has to be more than noise, and more than a trifle of the torque.
+// What is left has to be more than noise, and of interest.
 #include <gtest/gtest.h>
 
 #include "diagnosis/search/explanation.hpp"

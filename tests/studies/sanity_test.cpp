@@ -103,6 +103,13 @@ TEST(Sanity, AMotorThatSticksAtItsReversalsIsNotCutOff) {
   }
 }
 
+void add_row(Recording& r, double t, double load, double motor, double transmitted) {
+  r.time.push_back(t);
+  r.channels[Quantity::load_angle].push_back(load);
+  r.channels[Quantity::motor_angle].push_back(motor);
+  r.channels[Quantity::transmitted_torque].push_back(transmitted);
+}
+
 /// A free drive that turns mostly its motor, the motor's torque recorded by this factor, the
 /// transmitted one by that.
 RecordingSet mostly_motor(double of_motor, double of_transmitted) {
@@ -121,11 +128,7 @@ RecordingSet mostly_motor(double of_motor, double of_transmitted) {
       const double torsion = torque / 2e4;
       const double motor = kRatio * (load + torsion);
       const double speed = kRatio * rate * 0.8 * std::cos(rate * t) * (1.0 - rate * rate * 1e-4);
-      r.time.push_back(t);
-      r.channels[Quantity::load_angle].push_back(load);
-      r.channels[Quantity::motor_angle].push_back(motor);
-      r.channels[Quantity::transmitted_torque].push_back(of_transmitted *
-                                                         (torque + 0.02 * std::sin(311.0 * t)));
+      add_row(r, t, load, motor, of_transmitted * (torque + 0.02 * std::sin(311.0 * t)));
       r.channels[Quantity::motor_torque].push_back(
           of_motor * (-rate * rate * motor * kMotor + torque / kRatio + 0.02 * std::tanh(speed) +
                       1e-3 * std::sin(277.0 * t)));
@@ -173,10 +176,7 @@ TEST(Sanity, AHarmonicOfAShortStrokeIsNoOtherInertia) {
         const double load = 0.26 * std::sin(rate * t);
         const double torque =
             2.0 * rate * rate * (-load + 0.26 * 0.02 * std::sin(3.0 * rate * t)) * factor;
-        r.time.push_back(t);
-        r.channels[Quantity::load_angle].push_back(load);
-        r.channels[Quantity::motor_angle].push_back(100.0 * (load + torque / 2e4));
-        r.channels[Quantity::transmitted_torque].push_back(torque + 0.01 * std::sin(311.0 * t));
+        add_row(r, t, load, 100.0 * (load + torque / 2e4), torque + 0.01 * std::sin(311.0 * t));
       }
     }
     return set;

@@ -57,23 +57,13 @@ Columns grid(const ArrayXd& x, const ArrayXd& y, int count) {
   return columns;
 }
 
-Columns by_recording(const Frame& f, const ArrayXd& direction) {
-  Columns columns;
-  for (const Segment& s : f.segments) {
-    ArrayXd still = ArrayXd::Zero(f.rows());
-    still.segment(s.first, s.count).setOnes();
-    columns.push_back(still);
-    columns.push_back(still * direction);
-  }
-  return columns;
-}
-
-// What grows or fades in the course of a recording, and begins anew in the next.
-Columns within_recordings(const Frame& f, const ArrayXd& direction) {
+// A straight line in the course of each recording, from a value to one, plain and with the
+// direction.
+Columns by_recording(const Frame& f, const ArrayXd& direction, double from) {
   Columns columns;
   for (const Segment& s : f.segments) {
     ArrayXd course = ArrayXd::Zero(f.rows());
-    course.segment(s.first, s.count) = ArrayXd::LinSpaced(s.count, -1.0, 1.0);
+    course.segment(s.first, s.count) = ArrayXd::LinSpaced(s.count, from, 1.0);
     columns.push_back(course);
     columns.push_back(course * direction);
   }
@@ -128,8 +118,8 @@ class Scan {
                         kDirectedBins),
           "way since the last reversal");
     score("lag", {rate_of(f_, prediction_)}, "rate of the torque itself");
-    score("time", by_recording(f_, direction), "time of the session");
-    score("time", within_recordings(f_, direction), "time within each recording");
+    score("time", by_recording(f_, direction, 1.0), "time of the session");
+    score("time", by_recording(f_, direction, -1.0), "time within each recording");
     score("constant", {ArrayXd::Ones(f_.rows())}, "");
     scores_.back().says =
         fmt::format("what is left of the {} equation is constant", name_of(equation_));
