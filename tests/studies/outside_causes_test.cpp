@@ -80,6 +80,26 @@ TEST(OutsideCauses, ACurveHasNoPartOfAGain) {
   }
 }
 
+// Nothing at rest, half at the half rate, all of it far beyond; of the spring's torque, so that it
+// pulls as the spring does, whichever way the motion goes.
+TEST(OutsideCauses, AStiffnessOfTheRateGoesWithItsSquareAndSaturates) {
+  Frame frame = closed_form_frame();
+  const CauseForm& form = form_of("rate_dependent_stiffness");
+  const auto shapes = form.shapes(frame);
+  ASSERT_EQ(shapes.size(), 1U);
+  const double half = std::sqrt(shapes[0].lower * shapes[0].upper);
+  Reference reference;
+  reference.elastic = ArrayXd::Constant(frame.rows(), -3.0);
+  for (const auto& [rate, share] :
+       {std::pair{0.0, 0.0}, {half, 0.5}, {-half, 0.5}, {7.0 * half, 0.98}}) {
+    frame.torsion_rate = ArrayXd::Constant(frame.rows(), rate);
+    const auto columns = form.columns(Equation::torsion, frame, reference, std::vector{half});
+    ASSERT_EQ(columns.size(), 1U);
+    EXPECT_NEAR(columns[0].maxCoeff(), -3.0 * share, 1e-12) << rate;
+    EXPECT_NEAR(columns[0].minCoeff(), -3.0 * share, 1e-12) << rate;
+  }
+}
+
 // Hysteresis of the sensor, which the gear's own was named for.
 TEST(OutsideCauses, AFreeDrivesSensorWithPlayIsUnexplained) {
   const auto hidden = drawn_case(Rig::free, 51, {{"unknown:sensor_play", 0.08}});
@@ -88,6 +108,16 @@ TEST(OutsideCauses, AFreeDrivesSensorWithPlayIsUnexplained) {
   EXPECT_EQ(d.verdict, Verdict::unexplained) << d.says;
   EXPECT_NE(d.says.find("outside the catalogue"), std::string::npos) << d.says;
   EXPECT_LT(d.holdout.ratio, 0.5) << "it is in the model";
+}
+
+// A spring that relaxes is stiffer in motion, too, and was named for it.
+TEST(OutsideCauses, ASpringThatIsStifferInMotionDoesNotCreep) {
+  for (const std::uint64_t seed : {1, 3, 7}) {
+    const auto hidden = drawn_case(Rig::locked, seed, {{"unknown:speed_stiffness", 0.06}});
+    const Diagnosis d = diagnosed(hidden.recordings);
+    EXPECT_TRUE(d.causes.empty()) << seed << " " << names(d).front();
+    EXPECT_EQ(d.verdict, Verdict::unexplained) << seed << d.says;
+  }
 }
 
 }  // namespace

@@ -16,7 +16,9 @@ const kReports = [
   { name: "verification", fixture: "verification_fixture", page: "index.html", figures: 2 },
 ];
 const kMostBytes = 3_000_000;
-const kInteractiveWithin = 1000;
+const kInteractiveWithin = 1000;  // ms
+const kTimesText = 3.5;
+const kTurns = 12;
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 if (!chromium) {
   console.log("skipped: no chromium on this machine (Debian: apt-get install chromium)");
@@ -186,31 +188,38 @@ async function checkFiles(page, folder, at) {
   }
 }
 
-/** The quickest of three: a busy machine must not look like a slow page. */
 async function interactiveAfter(browser, url) {
-  const times = [];
-  for (let i = 0; i < 3; i++) {
-    const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-    await page.goto(url);
-    times.push(await page.evaluate(() => performance.getEntriesByType("navigation")[0].domInteractive));
-    await page.close();
-  }
-  return Math.min(...times);
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  await page.goto(url);
+  const time = await page.evaluate(() => performance.getEntriesByType("navigation")[0].domInteractive);
+  await page.close();
+  return time;
 }
 
-/** Nor must a slow machine: there the page is held against its text alone, which takes 300 ms where all takes 800. */
-async function allowedTime(browser, url) {
+/**
+ * A busy machine must not look like a slow page, nor a slow one: there the page is held against its text alone, which
+ * takes 300 ms where all takes 800. The quickest of each counts, in turns, as what else runs comes and goes.
+ */
+async function startsInTime(browser, url) {
   const bare = join(work, "bare.html");
   writeFileSync(bare, readFileSync(fileURLToPath(url), "utf8").replace(/<script.*?<\/script>/gs, ""));
-  return Math.max(kInteractiveWithin, 3.5 * (await interactiveAfter(browser, pathToFileURL(bare).href)));
+  let whole = Infinity;
+  let text = Infinity;
+  for (let turn = 0; turn < kTurns; turn++) {
+    whole = Math.min(whole, await interactiveAfter(browser, url));
+    if (whole <= kInteractiveWithin) break;
+    text = Math.min(text, await interactiveAfter(browser, pathToFileURL(bare).href));
+    if (turn > 1 && whole <= kTimesText * text) break;
+  }
+  return { whole, text, inTime: whole <= kInteractiveWithin || whole <= kTimesText * text };
 }
 
 async function checkStart(browser, url, at) {
-  const quickest = await interactiveAfter(browser, url);
+  const { whole, text, inTime } = await startsInTime(browser, url);
   const size = statSync(fileURLToPath(url)).size;
-  console.log(`${at}: ${size} bytes, interactive after ${Math.round(quickest)} ms`);
-  const slow = quickest > kInteractiveWithin && quickest > (await allowedTime(browser, url));
-  check(!slow, `${at}: interactive only after ${Math.round(quickest)} ms`);
+  const beside = text < Infinity ? `, its text alone after ${Math.round(text)}` : "";
+  console.log(`${at}: ${size} bytes, interactive after ${Math.round(whole)} ms${beside}`);
+  check(inTime, `${at}: interactive only after ${Math.round(whole)} ms${beside}`);
   check(size <= kMostBytes, `${at}: ${size} bytes`);
 }
 
