@@ -26,8 +26,10 @@ struct Reach {
 // Laws are odd and smooth, but for f of an angle that travels: it is known on neither side by the
 // other, and nowhere beyond.
 std::vector<Reach> reaches(const Frame& f) {
+  const bool periodic = f.periodic_rate.size() > 0;
+  const ArrayXd rate = periodic ? ArrayXd(f.torsion_rate - f.periodic_rate) : f.torsion_rate;
   std::vector<Reach> list = {
-      {f.torsion_rate.abs(), kReach}, {f.motor_speed.abs(), kReach}, {f.torque.abs(), kReach}};
+      {rate.abs(), kReach}, {f.motor_speed.abs(), kReach}, {f.torque.abs(), kReach}};
   if (f.travels) {
     const ArrayXd beyond_middle = f.torsion - 0.5 * (f.lowest + f.highest);
     list.push_back({beyond_middle.max(0.0), 1.0});

@@ -79,6 +79,9 @@ struct Frame {
   Eigen::ArrayXd motor_acceleration_error, load_acceleration_error;
   /// Those above behind the bandwidth of their motion, then behind narrower ones; null: only those.
   std::shared_ptr<const std::vector<Accelerations>> accelerations;
+  /// What of the torsion's rate comes and goes with the motor's turn: an error of the angles or of
+  /// the gear, which laws do not depend on; empty: nothing.
+  Eigen::ArrayXd periodic_rate;
   Eigen::ArrayXd torque;                      ///< measured, across the transmission
   Eigen::ArrayXd smooth_torque, torque_rate;  ///< the same, smoothed
   Eigen::ArrayXd told_torque;                 ///< as the torsion tells it: told_torque(); of drives

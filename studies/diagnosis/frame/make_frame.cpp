@@ -148,6 +148,7 @@ class FrameMaker {
     centre_recordings();
     centre_together();
     measure_ranges();
+    keep_periodic_rate();
     frame_.motor_slides *= motor_slides(frame_);
     leave_out_starts();
     leave_out_hidden_motor();
@@ -293,6 +294,13 @@ class FrameMaker {
       const double start = std::min(forgotten, kBeginning * time[s.count - 1]);
       f.usable.segment(s.first, s.count) *= (time >= start).cast<double>();
     }
+  }
+
+  void keep_periodic_rate() {
+    Frame& f = frame_;
+    if (periodic_.terms.empty()) return;
+    const ArrayXd slope = f.motor_angle.unaryExpr([&](double x) { return periodic_.slope(x); });
+    f.periodic_rate = slope * f.motor_speed / f.ratio;
   }
 
   // A motor that follows a kinematic error accelerates by more than its angle can tell.

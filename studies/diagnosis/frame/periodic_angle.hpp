@@ -22,7 +22,7 @@ struct PeriodicAngle {
 };
 
 /// Orders 1, 2, 2 (1 + 1/N) and 4 by regression of the raw torsion on the turns, both about running
-/// parabolas of 101 samples; those of more than four standard errors, of independent samples and
+/// parabolas of 101 samples; those of more than ten standard errors, of independent samples and
 /// by the scatter from recording to recording. Empty but on the free rig.
 PeriodicAngle periodic_angle(const RecordingSet& set);
 

@@ -9,13 +9,18 @@
 namespace flexspline::studies {
 namespace {
 
+// None for what is in no catalogue, and for what is of no interest beside what came after it.
+double probability_of_name(const Accepted& cause, const CauseProof& proof, const Limits& limits) {
+  const bool outside = !cause.trial.cause.row->outside.empty();
+  return outside || cause.trial.size < limits.interest ? 0.0 : probability_of(proof);
+}
+
 // The causes of the proof whose names are improbable go to the end of the list and of the model.
 std::size_t put_improbable_last(Selection& s, Proof& proof, const Limits& limits) {
   DriveModel& model = s.final.fit.model;
   std::size_t named = s.accepted.size();
   for (std::size_t i = s.accepted.size(); i-- > 0;) {
-    const bool outside = !s.accepted[i].trial.cause.row->outside.empty();
-    s.accepted[i].probability = outside ? 0.0 : probability_of(proof.causes[i]);
+    s.accepted[i].probability = probability_of_name(s.accepted[i], proof.causes[i], limits);
     if (s.accepted[i].probability >= limits.probability) continue;
     const auto to_the_end = [&](auto& list, std::size_t at) {
       const auto first = list.begin() + static_cast<std::ptrdiff_t>(at);

@@ -34,7 +34,7 @@ CauseRow describe_torque_sensor_curvature() {
                      .terms = terms,
                      .columns = curved,
                      .where = told_by_inertia,
-                     .no_counterpart = "the catalogue of effects has no curve of a sensor"}},
+                     .no_counterpart = "torque_sensor_nonlinearity has no even part"}},
           .outside = "a torque sensor whose reading is no line"};
 }
 

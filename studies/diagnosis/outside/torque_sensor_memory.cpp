@@ -39,7 +39,7 @@ CauseRow describe_torque_sensor_memory() {
                  .terms = terms,
                  .columns = held_back,
                  .where = told_twice,
-                 .no_counterpart = "the catalogue of effects has no memory of a sensor"}},
+                 .no_counterpart = "torque_sensor_nonlinearity has one width"}},
       .outside = "a torque sensor whose reading stays behind at reversals"};
 }
 
