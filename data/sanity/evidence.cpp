@@ -64,6 +64,10 @@ std::string mistake_of(double factor, double ratio) {
   return factor < 0.0 && !is_off(size, 2.0) ? "one of the two has the wrong sign" : "";
 }
 
+bool is_mistaken_alone(double factor, double most, double ratio) {
+  return !mistake_of(factor, ratio).empty() || (factor > 0.0 && is_off(factor, most * most));
+}
+
 Regression regression(const std::vector<ArrayXd>& columns, const ArrayXd& y,
                       const ArrayXd& usable) {
   const auto count = static_cast<Index>(columns.size());

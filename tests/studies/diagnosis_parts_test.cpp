@@ -313,6 +313,30 @@ TEST(SmoothTorsion, IsAsGoodAsItsOwnNoiseAllows) {
   EXPECT_LT(together, 0.5 * apart);
 }
 
+// phi = s/N - theta_l of the drive that does not wobble.
+TEST(PeriodicAngle, IsInTheFramesRateWhatTheLawsDoNotSee) {
+  const auto frame = make_frame(wobbling(kError, 1e-7).set, 1'000'000);
+  ASSERT_TRUE(frame) << frame.error().message();
+  ASSERT_EQ(frame->periodic_rate.size(), frame->rows());
+  const Frame f = closed_form_frame();
+  const ArrayXd plain = frame->torsion_rate - frame->periodic_rate;
+  const auto off = [&](const ArrayXd& rate) {
+    double most = 0.0;
+    for (const Segment& s : frame->segments) {
+      const auto true_one = std::ranges::find(f.segments, s.id, &Segment::id);
+      const ArrayXd wrong =
+          rate.segment(s.first, s.count) - f.torsion_rate.segment(true_one->first, s.count);
+      most = std::max(most, wrong.segment(50, s.count - 100).abs().maxCoeff());
+    }
+    return most / f.rate_range;
+  };
+  EXPECT_LT(off(plain), 0.02);
+  EXPECT_GT(off(frame->torsion_rate), 0.2);
+  const auto steady = make_frame(wobbling({}, 1e-7).set, 1'000'000);
+  ASSERT_TRUE(steady);
+  EXPECT_EQ(steady->periodic_rate.size(), 0);
+}
+
 TEST(PeriodicAngle, KeepsItOutOfTheSmoothingAndPutsItBack) {
   const Wobbling w = wobbling(kError, 1e-7);
   const auto found = periodic_angle(w.set);

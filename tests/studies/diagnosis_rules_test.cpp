@@ -117,6 +117,23 @@ TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
   EXPECT_EQ(times.maxCoeff(), 1.0);
 }
 
+// No law is fitted to a rate that comes and goes with the motor's turn: it reaches nowhere.
+TEST(HeldOut, WhatIsPeriodicInTheMotorsTurnIsNoReach) {
+  Frame f = closed_form_frame(9000);
+  f.segments.clear();
+  for (Index k = 0; k < 9; ++k) f.segments.push_back({"r", 1000 * k, 1000, Split::unassigned});
+  for (ArrayXd* x : {&f.torsion, &f.motor_speed, &f.torque}) *x = ArrayXd::Ones(9000);
+  ArrayXd rate = ArrayXd::Ones(9000) * 0.5;
+  rate.segment(5000, 1000).setOnes();
+  f.periodic_rate = ArrayXd::Zero(9000);
+  f.periodic_rate.segment(2000, 1000).setConstant(7.0);
+  f.torsion_rate = rate + f.periodic_rate;
+  const ArrayXd held = held_out(f);
+  EXPECT_EQ(held.sum(), 7000.0);
+  EXPECT_EQ(held.segment(2000, 1000).minCoeff(), 1.0) << "furthest by its ripple alone";
+  EXPECT_EQ(held.segment(5000, 1000).maxCoeff(), 0.0) << "furthest without";
+}
+
 // Two recordings, each faster, or further, than the other.
 TEST(HeldOut, WhereEachReachesFurthestTheLastThirdOfEach) {
   Frame f = closed_form_frame(6000);

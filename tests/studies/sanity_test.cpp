@@ -185,6 +185,33 @@ TEST(Sanity, AHarmonicOfAShortStrokeIsNoOtherInertia) {
   EXPECT_TRUE(raises(short_strokes(1000.0), "load_inertia"));
 }
 
+// Something stiff that one recording runs into pulls more there than the load's mass does; a file
+// in another unit is told by a factor that units have.
+TEST(Sanity, WhatOneRecordingRunsIntoIsNoOtherUnit) {
+  const auto slow_among_fast = [](double bumper, double factor) {
+    RecordingSet set;
+    set.rig = Rig::free;
+    set.constants = {{"gear_ratio", 100.0}, {"load_inertia_kgm2", 2.0}};
+    for (const double rate : {1.0, 3.0, 3.5, 4.0}) {
+      Recording& r = set.recordings.emplace_back();
+      r.id = "sine-" + std::to_string(rate);
+      r.start_s = 40.0 * rate;
+      for (double t = 0.0; t < 30.0 / rate; t += 5e-3) {
+        const double load = std::sin(rate * t);
+        const double hit = load > 0.5 ? std::pow((load - 0.5) / 0.5, 1.5) : 0.0;
+        const double torque = -2.0 * rate * rate * load + (rate == 1.0 ? bumper * hit : 0.0);
+        add_row(r, t, load, 100.0 * (load + torque / 2e4),
+                torque * (rate == 1.0 ? factor : 1.0) + 0.01 * std::sin(311.0 * t));
+      }
+    }
+    return set;
+  };
+  EXPECT_FALSE(raises(slow_among_fast(0.0, 1.0), "load_inertia"));
+  EXPECT_FALSE(raises(slow_among_fast(3.5, 1.0), "load_inertia"));
+  EXPECT_TRUE(raises(slow_among_fast(3.5, 1000.0), "load_inertia"));
+  EXPECT_TRUE(raises(slow_among_fast(0.0, -1.0), "load_inertia"));
+}
+
 /// Whether the catalogue has it, as `list checks` prints it.
 bool is_listed(const SanityFinding& one) {
   const auto rows = data::sanity_checks();

@@ -90,6 +90,15 @@ TEST_F(UnnamedCauses, StayInTheModelWhereSomethingIsLeftWithoutThem) {
   EXPECT_EQ(s_.final.fit.model.causes.size(), 1U);
 }
 
+// The floor is of what it adds to the model that stands, not of what it added when it was found.
+TEST_F(UnnamedCauses, AreThoseOfNoInterestWhateverTheirNamesProbability) {
+  Accepted& hidden = s_.accepted.front();
+  limits_.interest = 1.1 * hidden.trial.size;
+  take_names({0.985});
+  EXPECT_THAT(ids(s_.accepted), IsEmpty());
+  EXPECT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
+}
+
 // What only a form without a name follows is left beside the names, as a table's would be.
 TEST_F(UnnamedCauses, AreLeftOverBesideThoseThatAreNamed) {
   auto proof = prove(frame_, s_, 0);

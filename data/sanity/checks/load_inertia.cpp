@@ -54,9 +54,8 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
   const Agreement agreement = agreement_of(factors, kMostOff);
   std::vector<SanityFinding> list;
   if (is_off(agreement.common, kMostOff)) list.push_back(finding("", agreement.common, ratio));
-  // One recording that has a factor which no mistake makes has something else of its own.
   for (const Factor& other : agreement.others) {
-    if (is_off(other.value, kMostOff) && !mistake_of(other.value, ratio).empty()) {
+    if (is_off(other.value, kMostOff) && is_mistaken_alone(other.value, kMostOff, ratio)) {
       list.push_back(finding(other.recording, other.value, ratio));
     }
   }
