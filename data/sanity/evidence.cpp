@@ -64,8 +64,9 @@ std::string mistake_of(double factor, double ratio) {
   return factor < 0.0 && !is_off(size, 2.0) ? "one of the two has the wrong sign" : "";
 }
 
-bool is_mistaken_alone(double factor, double most, double ratio) {
-  return !mistake_of(factor, ratio).empty() || (factor > 0.0 && is_off(factor, most * most));
+bool is_mistaken_alone(double factor, double most) {
+  const double size = std::abs(factor);
+  return is_off(size, most * most) || (factor < 0.0 && !is_off(size, most));
 }
 
 Regression regression(const std::vector<ArrayXd>& columns, const ArrayXd& y,

@@ -30,11 +30,10 @@ bool is_off(double factor, double most);
 /// none does. ratio: of the gear, or NaN.
 std::string mistake_of(double factor, double ratio);
 
-/// Of one recording that does not agree with the others: true for a factor that a mistake gives, or
-/// one that differs from 1 by more than a factor of most squared. Less, what it alone runs into
-/// does, too: a stop, a cable, a pendulum, which on a slow motion outweigh an inertia and may turn
-/// its sign.
-bool is_mistaken_alone(double factor, double most, double ratio);
+/// Of one recording that does not agree with the others: true for a factor beyond most squared, or
+/// near -1. Less, what it alone runs into does, too: a stop, a cable, a pendulum, which on a slow
+/// motion outweigh an inertia and may turn its sign. Units, ratios and signs are further off.
+bool is_mistaken_alone(double factor, double most);
 
 /// Least squares of y on columns over the rows that count.
 struct Regression {

@@ -82,7 +82,7 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
   std::vector<SanityFinding> list;
   if (is_off(agreement.common, kMostOff)) list.push_back(finding("", agreement.common, ratio));
   for (const Factor& other : agreement.others) {
-    if (is_off(other.value, kMostOff) && is_mistaken_alone(other.value, kMostOff, ratio)) {
+    if (is_mistaken_alone(other.value, kMostOff)) {
       list.push_back(finding(other.recording, other.value, ratio));
     }
   }
