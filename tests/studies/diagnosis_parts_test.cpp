@@ -144,6 +144,25 @@ TEST(Locate, AProductOfPositionAndSpeedIsFoundThoughNeitherOrdersIt) {
   }
 }
 
+// A spring that softens from recording to recording: f(phi) times a number of each.
+TEST(Locate, AGainOfEachRecordingIsFoundThoughNoCoordinateOrdersIt) {
+  const Frame frame = closed_form_frame();
+  ASSERT_GE(frame.segments.size(), 2U);
+  auto findings = findings_of(frame, Equation::torsion, ArrayXd::Zero(frame.rows()));
+  const ArrayXd spring = unit(frame.torsion);
+  findings.fit.prediction[index_of(Equation::torsion)] = 10.0 * spring;
+  ArrayXd gain = ArrayXd::Ones(frame.rows());
+  for (std::size_t i = 0; i < frame.segments.size(); i += 2) {
+    gain.segment(frame.segments[i].first, frame.segments[i].count).setConstant(-1.0);
+  }
+  findings.fit.residual[index_of(Equation::torsion)] += 2.0 * gain * spring;
+  const auto scores = locate_anything(frame, findings);
+  EXPECT_EQ(scores.front().coordinate, "time");
+  EXPECT_NE(scores.front().says.find("in every recording"), std::string::npos);
+  EXPECT_GT(scores.front().statistic, Limits{}.gain);
+  EXPECT_LT(locate(frame, findings).front().statistic, 0.5 * scores.front().statistic);
+}
+
 TEST(Locate, NoiseIsNowhere) {
   const Frame frame = closed_form_frame();
   for (const CoordinateScore& score :

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -57,15 +58,14 @@ Columns grid(const ArrayXd& x, const ArrayXd& y, int count) {
   return columns;
 }
 
-// A straight line in the course of each recording, from a value to one, plain and with the
-// direction.
-Columns by_recording(const Frame& f, const ArrayXd& direction, double from) {
+// A straight line in the course of each recording, from a value to one, plain and times a factor.
+Columns by_recording(const Frame& f, const ArrayXd& factor, double from) {
   Columns columns;
   for (const Segment& s : f.segments) {
     ArrayXd course = ArrayXd::Zero(f.rows());
     course.segment(s.first, s.count) = ArrayXd::LinSpaced(s.count, from, 1.0);
     columns.push_back(course);
-    columns.push_back(course * direction);
+    columns.push_back(course * factor);
   }
   return columns;
 }
@@ -132,10 +132,13 @@ class Scan {
     return std::move(scores_);
   }
 
-  CoordinateScore together() {
+  // What two order that neither orders alone.
+  std::vector<CoordinateScore> products() {
     score("velocity", grid(position_of(f_, equation_), speed_of(f_, equation_), kGridBins),
           "speed, otherwise at every position");
-    return std::move(scores_.back());
+    score("time", by_recording(f_, prediction_ / largest_, 1.0),
+          "torque, otherwise in every recording");
+    return std::move(scores_);
   }
 
  private:
@@ -236,7 +239,7 @@ std::vector<CoordinateScore> locate(const Frame& frame, const Findings& findings
 std::vector<CoordinateScore> locate_anything(const Frame& frame, const Findings& findings) {
   auto scores = locate(frame, findings);
   for (Equation equation : frame.equations) {
-    scores.push_back(Scan(frame, findings, equation).together());
+    std::ranges::move(Scan(frame, findings, equation).products(), std::back_inserter(scores));
   }
   std::ranges::stable_sort(scores, std::ranges::greater{}, &CoordinateScore::statistic);
   return scores;

@@ -23,8 +23,8 @@ struct CoordinateScore {
 /// the residual as it is.
 std::vector<CoordinateScore> locate(const Frame& frame, const Findings& findings);
 
-/// The same, and what position and speed order together (5 x 5 bins), as a product of the two that
-/// neither orders alone. For a verdict that nothing was left out; causes are not chosen by it, as
+/// The same, and what two order that neither orders alone: position and speed (5 x 5 bins), torque
+/// and recording (a gain of each: what warms up, a stiffness, say). For a verdict that nothing was left out; causes are not chosen by it, as
 /// the forms of large ones leave as much.
 std::vector<CoordinateScore> locate_anything(const Frame& frame, const Findings& findings);
 
