@@ -44,7 +44,7 @@ std::vector<std::string> remarks_on(const Selection& s, const Limits& limits) {
   }
   remarks.resize(remarks.size() + s.accepted.size());
   for (const Accepted& one : s.unnamed) {
-    if (!one.trial.cause.row->outside.empty()) {
+    if (!one.trial.cause.row->in_catalogue()) {
       remarks.emplace_back("outside the catalogue");
       continue;
     }

@@ -110,6 +110,22 @@ TEST(OutsideCauses, AFreeDrivesSensorWithPlayIsUnexplained) {
   EXPECT_LT(d.holdout.ratio, 0.5) << "it is in the model";
 }
 
+// Nor is a motion proposed that tells a name from what has none.
+TEST(OutsideCauses, AreNothingThatANameIsConfusedWith) {
+  const auto hidden = drawn_case(Rig::locked, 5, {{"presliding_hysteresis", 0.06}});
+  const Diagnosis d = diagnosed(hidden.recordings);
+  ASSERT_FALSE(d.causes.empty()) << d.says;
+  ASSERT_FALSE(d.experiments.empty());
+  const auto is_outside = [](std::string_view id) {
+    return std::ranges::count(outside_causes(), id, &CauseRow::id) > 0;
+  };
+  EXPECT_TRUE(std::ranges::any_of(d.tried, is_outside, &TriedCandidate::effect));
+  EXPECT_TRUE(std::ranges::none_of(d.confusable, is_outside, &Confusable::effect));
+  for (const NextExperiment& next : d.experiments) {
+    EXPECT_TRUE(std::ranges::none_of(next.separates, is_outside)) << next.says;
+  }
+}
+
 // A spring that relaxes is stiffer in motion, too, and was named for it.
 TEST(OutsideCauses, ASpringThatIsStifferInMotionDoesNotCreep) {
   for (const std::uint64_t seed : {1, 3, 7}) {

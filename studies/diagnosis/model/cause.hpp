@@ -100,6 +100,7 @@ struct CauseRow {
   std::string_view outside = {};          ///< the catalogue: what it is in words, never a name
 
   bool of_baseline() const { return part.has_value(); }
+  bool in_catalogue() const { return outside.empty(); }
 };
 
 /// Every cause, by id: those that have a file of their own, and every other effect of the

@@ -124,7 +124,7 @@ std::vector<std::string> alternatives_of(const Accepted& accepted, const Selecti
   for (const Trial& t : accepted.rivals) {
     const bool named = std::ranges::any_of(
         s.accepted, [&](const Accepted& a) { return a.trial.cause.row == t.cause.row; });
-    if (!named && t.cause.row->outside.empty() && ids.size() < kMostAlternatives)
+    if (!named && t.cause.row->in_catalogue() && ids.size() < kMostAlternatives)
       ids.emplace_back(t.cause.row->id);
   }
   return ids;

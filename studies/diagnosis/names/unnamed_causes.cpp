@@ -11,8 +11,8 @@ namespace {
 
 // None for what is in no catalogue, and for what is of no interest beside what came after it.
 double probability_of_name(const Accepted& cause, const CauseProof& proof, const Limits& limits) {
-  const bool outside = !cause.trial.cause.row->outside.empty();
-  return outside || cause.trial.size < limits.interest ? 0.0 : probability_of(proof);
+  const bool may_be = cause.trial.cause.row->in_catalogue() && cause.trial.size >= limits.interest;
+  return may_be ? probability_of(proof) : 0.0;
 }
 
 // The causes of the proof whose names are improbable go to the end of the list and of the model.

@@ -41,16 +41,21 @@ struct Pair {
   const Trial* other;
 };
 
+/// The first that has a name; null where none has.
+const Trial* first_name(const std::vector<Trial>& trials) {
+  const auto found = std::ranges::find_if(
+      trials, [](const Trial& t) { return t.cause.row != nullptr && t.cause.row->in_catalogue(); });
+  return found == trials.end() ? nullptr : &*found;
+}
+
 /// Every cause with its closest alternative; the first also with what came next behind it.
 std::vector<Pair> undecided_pairs(const Selection& s) {
   std::vector<Pair> pairs;
   for (const Accepted& accepted : s.accepted) {
     const bool first = &accepted == &s.accepted.front();
-    if (!accepted.rivals.empty()) {
-      pairs.push_back({&accepted.trial, &accepted.rivals.front()});
-    } else if (first && !accepted.field.empty() && accepted.field.front().cause.row != nullptr) {
-      pairs.push_back({&accepted.trial, &accepted.field.front()});
-    }
+    const Trial* other = first_name(accepted.rivals);
+    if (other == nullptr && first) other = first_name(accepted.field);
+    if (other != nullptr) pairs.push_back({&accepted.trial, other});
   }
   return pairs;
 }

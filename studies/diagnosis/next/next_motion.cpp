@@ -48,6 +48,7 @@ Frame empty_like(const Frame& like, Index rows) {
   f.motor_speed_error.resize(0);
   f.torsion_error.resize(0);
   f.torsion_rate_error.resize(0);
+  f.periodic_rate.resize(0);
   f.motor_slides.resize(0);
   f.velocity = ArrayXd::Constant(rows, kNotComputed);
   f.usable = ArrayXd::Ones(rows);

@@ -24,8 +24,8 @@ struct CoordinateScore {
 std::vector<CoordinateScore> locate(const Frame& frame, const Findings& findings);
 
 /// The same, and what two order that neither orders alone: position and speed (5 x 5 bins), torque
-/// and recording (a gain of each: what warms up, a stiffness, say). For a verdict that nothing was left out; causes are not chosen by it, as
-/// the forms of large ones leave as much.
+/// and recording (a gain of each: a stiffness that warms up, say). For a verdict that nothing was
+/// left out; causes are not chosen by it, as the forms of large ones leave as much.
 std::vector<CoordinateScore> locate_anything(const Frame& frame, const Findings& findings);
 
 /// The window of a recording where an equation's smoothed residual is largest.

@@ -212,7 +212,7 @@ std::vector<Confusable> spelled_confusable(const Frame& frame, const Selection& 
     const Eigen::VectorXd own = change_of(frame, s.baseline, a.trial);
     for (const auto* field : {&a.rivals, &a.field}) {
       for (const Trial& t : *field) {
-        if (t.cause.row == nullptr) continue;
+        if (t.cause.row == nullptr || !t.cause.row->in_catalogue()) continue;
         const Eigen::VectorXd other = change_of(frame, s.baseline, t);
         const double scale = own.norm() * other.norm();
         if (!(scale > 0.0)) continue;

@@ -77,7 +77,7 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s, c
     if (listed(list, a.trial.cause.row->coordinate)) continue;
     list.push_back(explained(frame, s, a));
     const CauseRow& row = *a.trial.cause.row;
-    list.back().says += row.outside.empty()
+    list.back().says += row.in_catalogue()
                             ? fmt::format("what has the form of {}, a name of probability {:.2g}",
                                           row.id, a.probability)
                             : fmt::format("what is outside the catalogue: {}", row.outside);
