@@ -148,7 +148,7 @@ class FrameMaker {
     centre_recordings();
     centre_together();
     measure_ranges();
-    keep_periodic_rate();
+    frame_.periodic_rate = periodic_.rate(frame_.motor_angle, frame_.motor_speed) / frame_.ratio;
     frame_.motor_slides *= motor_slides(frame_);
     leave_out_starts();
     leave_out_hidden_motor();
@@ -226,7 +226,7 @@ class FrameMaker {
   // Where the zero of all lies too far out for a fit to start from none.
   void centre_together() {
     Frame& f = frame_;
-    if (f.travels || f.own_zeros || f.rig == Rig::servo || !has_torque()) return;
+    if (f.travels || f.own_zeros || f.rig == Rig::servo || (f.torque == 0.0).all()) return;
     Series zeros;
     for (const Segment& s : f.segments) {
       if (const double zero = unloaded_at(s); zero != 0.0) zeros.push_back(zero);
@@ -244,8 +244,6 @@ class FrameMaker {
                     "torque changes its sign",
                     100.0 * std::abs(zero) / reach));
   }
-
-  bool has_torque() const { return frame_.torque.abs().maxCoeff() > 0.0; }
 
   // Mean torsion where the torque changes its sign; 0 where it does so less than four times.
   double unloaded_at(const Segment& s) const {
@@ -294,13 +292,6 @@ class FrameMaker {
       const double start = std::min(forgotten, kBeginning * time[s.count - 1]);
       f.usable.segment(s.first, s.count) *= (time >= start).cast<double>();
     }
-  }
-
-  void keep_periodic_rate() {
-    Frame& f = frame_;
-    if (periodic_.terms.empty()) return;
-    const ArrayXd slope = f.motor_angle.unaryExpr([&](double x) { return periodic_.slope(x); });
-    f.periodic_rate = slope * f.motor_speed / f.ratio;
   }
 
   // A motor that follows a kinematic error accelerates by more than its angle can tell.

@@ -123,6 +123,11 @@ double PeriodicAngle::curvature(double theta) const {
   return sum;
 }
 
+ArrayXd PeriodicAngle::rate(const ArrayXd& theta, const ArrayXd& speed) const {
+  if (terms.empty()) return {};
+  return theta.unaryExpr([&](double x) { return slope(x); }) * speed;
+}
+
 PeriodicAngle periodic_angle(const RecordingSet& set) {
   PeriodicAngle periodic;
   if (set.rig != Rig::free) return periodic;

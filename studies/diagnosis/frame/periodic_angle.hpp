@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "flexspline/core/recording.hpp"
 #include "flexspline/core/rig_residuals.hpp"
 
@@ -19,6 +21,8 @@ struct PeriodicAngle {
   double value(double theta) const;
   double slope(double theta) const;
   double curvature(double theta) const;
+  /// P' theta' by row; empty where nothing is periodic.
+  Eigen::ArrayXd rate(const Eigen::ArrayXd& theta, const Eigen::ArrayXd& speed) const;
 };
 
 /// Orders 1, 2, 2 (1 + 1/N) and 4 by regression of the raw torsion on the turns, both about running
