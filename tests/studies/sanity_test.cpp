@@ -186,7 +186,7 @@ TEST(Sanity, AHarmonicOfAShortStrokeIsNoOtherInertia) {
 }
 
 // Something stiff that one recording runs into pulls more there than the load's mass does; a file
-// in another unit is told by a factor that units have.
+// in another unit is further off.
 TEST(Sanity, WhatOneRecordingRunsIntoIsNoOtherUnit) {
   const auto slow_among_fast = [](double bumper, double factor) {
     RecordingSet set;

@@ -97,6 +97,8 @@ TEST_F(UnnamedCauses, AreThoseOfNoInterestWhateverTheirNamesProbability) {
   take_names({0.985});
   EXPECT_THAT(ids(s_.accepted), IsEmpty());
   EXPECT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
+  EXPECT_FALSE(s_.unnamed.front().material);
+  EXPECT_NEAR(s_.unnamed.front().probability, 0.985, 1e-4) << "the name is no less likely for it";
 }
 
 // What only a form without a name follows is left beside the names, as a table's would be.

@@ -9,19 +9,20 @@
 namespace flexspline::studies {
 namespace {
 
-// None for what is in no catalogue, and for what is of no interest beside what came after it.
-double probability_of_name(const Accepted& cause, const CauseProof& proof, const Limits& limits) {
-  const bool may_be = cause.trial.cause.row->in_catalogue() && cause.trial.size >= limits.interest;
-  return may_be ? probability_of(proof) : 0.0;
+bool may_be_named(const Accepted& cause, const Limits& limits) {
+  return cause.material && cause.probability >= limits.probability;
 }
 
-// The causes of the proof whose names are improbable go to the end of the list and of the model.
+// The causes of the proof whose names are improbable, or of no interest in the end, go to the end
+// of the list and of the model.
 std::size_t put_improbable_last(Selection& s, Proof& proof, const Limits& limits) {
   DriveModel& model = s.final.fit.model;
   std::size_t named = s.accepted.size();
   for (std::size_t i = s.accepted.size(); i-- > 0;) {
-    s.accepted[i].probability = probability_of_name(s.accepted[i], proof.causes[i], limits);
-    if (s.accepted[i].probability >= limits.probability) continue;
+    Accepted& a = s.accepted[i];
+    a.probability = a.trial.cause.row->in_catalogue() ? probability_of(proof.causes[i]) : 0.0;
+    a.material = a.trial.size >= limits.interest;
+    if (may_be_named(a, limits)) continue;
     const auto to_the_end = [&](auto& list, std::size_t at) {
       const auto first = list.begin() + static_cast<std::ptrdiff_t>(at);
       std::rotate(first, first + 1, list.end());

@@ -240,9 +240,10 @@ std::vector<TriedCandidate> spelled_trials(const Selection& s, const Limits& lim
     const std::string_view outside = a.trial.cause.row->outside;
     list.push_back(tried(
         a.trial, ++round,
-        outside.empty()
+        !outside.empty() ? fmt::format("in the model, outside the catalogue: {}", outside)
+        : a.material
             ? fmt::format("in the model without its name, of probability {:.2g}", a.probability)
-            : fmt::format("in the model, outside the catalogue: {}", outside)));
+            : why_immaterial(a.trial, limits)));
   }
   for (const Accepted& a : s.withdrawn) add_round(a, ++round, limits, list);
   ++round;

@@ -77,10 +77,11 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s, c
     if (listed(list, a.trial.cause.row->coordinate)) continue;
     list.push_back(explained(frame, s, a));
     const CauseRow& row = *a.trial.cause.row;
-    list.back().says += row.in_catalogue()
-                            ? fmt::format("what has the form of {}, a name of probability {:.2g}",
-                                          row.id, a.probability)
-                            : fmt::format("what is outside the catalogue: {}", row.outside);
+    list.back().says +=
+        !row.in_catalogue() ? fmt::format("what is outside the catalogue: {}", row.outside)
+        : a.material ? fmt::format("what has the form of {}, a name of probability {:.2g}", row.id,
+                                   a.probability)
+                     : fmt::format("what has the form of {}, too small to be named", row.id);
   }
   if (resonance) {
     list.push_back(at_worst(frame, s.final, resonance->equation));

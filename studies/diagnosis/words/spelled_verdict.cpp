@@ -33,8 +33,9 @@ std::string part_in_words(const std::vector<Accepted>& unnamed) {
   std::vector<std::string> forms;
   for (const Accepted& a : unnamed) {
     const CauseRow& row = *a.trial.cause.row;
-    forms.push_back(row.in_catalogue() ? fmt::format("{} (p = {:.2g})", row.id, a.probability)
-                                       : fmt::format("{} (outside the catalogue)", row.outside));
+    forms.push_back(!row.in_catalogue() ? fmt::format("{} (outside the catalogue)", row.outside)
+                    : a.material        ? fmt::format("{} (p = {:.2g})", row.id, a.probability)
+                                        : fmt::format("{} (too small to be named)", row.id));
   }
   return fmt::format("a part whose name is uncertain, in the form of {},", listed(forms));
 }
