@@ -96,7 +96,7 @@ TEST_F(UnnamedCauses, AreThoseOfNoInterestWhateverTheirNamesProbability) {
   limits_.interest = 1.1 * hidden.trial.size;
   take_names({0.985});
   EXPECT_THAT(ids(s_.accepted), IsEmpty());
-  EXPECT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
+  ASSERT_THAT(ids(s_.unnamed), ElementsAre(kHidden));
   EXPECT_FALSE(s_.unnamed.front().material);
   EXPECT_NEAR(s_.unnamed.front().probability, 0.985, 1e-4) << "the name is no less likely for it";
 }
