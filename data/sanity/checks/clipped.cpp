@@ -134,6 +134,14 @@ bool goes_on_beyond(const Series& values, double extreme, bool top) {
   return 2 * hiding > flanks;
 }
 
+/// Whether a channel goes on where another is cut off. Behind a locked output the torque of the gear
+/// does where its motor turns on, and the motor's own does while it sticks, too.
+bool goes_on_with(const Recording& recording, Rig rig, Quantity cut_off, Quantity other) {
+  if (rig != Rig::locked || cut_off != Quantity::motor_angle) return true;
+  return other == Quantity::transmitted_torque ||
+         recording.find(Quantity::transmitted_torque) == nullptr;
+}
+
 /// Range of another channel over the longest row, of its own.
 double partner_moves(const ObservedSet& all, const Recording& recording, Quantity quantity,
                      const AtExtreme& extreme) {
@@ -141,6 +149,7 @@ double partner_moves(const ObservedSet& all, const Recording& recording, Quantit
   for (const Quantity other : telling_channels(all.set)) {
     const Series* values = recording.find(other);
     if (other == quantity || values == nullptr || !(range_of(*values) > 0.0)) continue;
+    if (!goes_on_with(recording, all.set.rig, quantity, other)) continue;
     const auto part = std::span(*values).subspan(extreme.first, extreme.row);
     most = std::max(most, range_of(part) / range_of(*values));
   }

@@ -100,6 +100,7 @@ Frame with_bandwidths(Frame f, const std::vector<std::size_t>& bandwidths) {
     take(f.motor_bandwidth, from.bandwidth), take(f.accelerations_held, from.held);
   }
   if (f.rig == Rig::servo) f.hang_pendulum();
+  f.weigh_load();
   if (f.rig != Rig::free) {  // whose torsion is smoothed as it is
     f.torsion_acceleration = f.motor_acceleration / f.ratio - f.load_acceleration;
   }

@@ -135,18 +135,20 @@ struct GearLaws {
         g(static_cast<Index>(dissipative.size())),
         torsion(wound(frame, shape)),
         rate(frame.torsion_rate / frame.rate_range / modulation(frame, shape)),
-        offset(frame.rig == Rig::specimen) {}
+        offset(frame.rig == Rig::specimen),
+        drag(frame.torque_by_inertia) {}
 
-  Index size() const { return f + g + (offset ? 1 : 0); }
+  Index size() const { return f + g + (offset || drag ? 1 : 0); }
 
   IntegratedBasis elastic, dissipative;
   Index f, g;
   ArrayXd torsion, rate;
   bool offset;
+  bool drag;  ///< of the load, which its inertia's torque is without
 };
 
 MatrixXd prior_of(const Frame& frame, const GearLaws& laws) {
-  const auto& [elastic, dissipative, f, g, torsion, rate, offset] = laws;
+  const auto& [elastic, dissipative, f, g, torsion, rate, offset, drag] = laws;
   MatrixXd prior = MatrixXd::Zero(f + g - 2, laws.size());
   penalise_differences(frame, ArrayXd::Ones(f - 1), prior.topLeftCorner(f - 1, f));
   penalise_differences(frame, midpoints(dissipative).inverse(), prior.block(f - 1, f, g - 1, g));
@@ -155,7 +157,7 @@ MatrixXd prior_of(const Frame& frame, const GearLaws& laws) {
 
 BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) {
   const GearLaws laws(frame, shape);
-  const auto& [elastic, dissipative, f, g, torsion, rate, offset] = laws;
+  const auto& [elastic, dissipative, f, g, torsion, rate, offset, drag] = laws;
   BaselineColumns c{MatrixXd(frame.rows(), laws.size()), Eigen::VectorXd::Zero(laws.size()), f, g,
                     prior_of(frame, laws)};
   elastic_columns(frame, elastic, torsion, c.columns.leftCols(f));
@@ -164,6 +166,7 @@ BaselineColumns gear_columns(const Frame& frame, std::span<const double> shape) 
     c.columns.col(f + g).setOnes();
     c.lower[f + g] = kFree;
   }
+  if (drag) c.columns.col(f + g) = -frame.load_speed;
   return c;
 }
 
@@ -172,7 +175,8 @@ BaselineTorque gear_torque(const Frame& frame, std::span<const double> shape,
   const GearLaws laws(frame, shape);
   return {elastic_sum(frame, laws.elastic, b.head(laws.f), laws.torsion),
           odd_sum(laws.dissipative, b.segment(laws.f, laws.g), laws.rate),
-          laws.offset ? b[laws.f + laws.g] : 0.0, prior_of(frame, laws) * b};
+          laws.offset ? b[laws.f + laws.g] : 0.0, prior_of(frame, laws) * b,
+          laws.drag ? ArrayXd(-b[laws.f + laws.g] * frame.load_speed) : ArrayXd()};
 }
 
 CubicBasis positions(const Frame& frame) { return {frame.lowest, frame.highest, kTravelIntervals}; }
@@ -299,6 +303,7 @@ Frame motion_at(const Frame& frame, const std::vector<Index>& rows) {
   few.rig = frame.rig;
   few.travels = frame.travels;
   few.firm_spring = frame.firm_spring;
+  few.torque_by_inertia = frame.torque_by_inertia;
   few.torque_range = frame.torque_range;
   few.torsion_range = frame.torsion_range;
   few.lowest = frame.lowest;

@@ -36,8 +36,12 @@ struct BaselineTorque {
   Eigen::ArrayXd elastic, dissipative;  ///< f and g^-1, by row
   double offset = 0.0;                  ///< of a specimen's torque
   Eigen::VectorXd prior;                ///< the rows of the prior times b
+  Eigen::ArrayXd drag = {};             ///< of a load whose inertia tells the torque; or empty
 
-  Eigen::ArrayXd sum() const { return elastic + dissipative + offset; }
+  Eigen::ArrayXd sum() const {
+    if (drag.size() == 0) return elastic + dissipative + offset;
+    return elastic + dissipative + drag;
+  }
 };
 BaselineTorque baseline_torque(const Frame& frame, std::span<const double> shape,
                                const Eigen::VectorXd& b);

@@ -31,7 +31,8 @@ std::string_view name_of(Equation equation) {
 
 ArrayXd Frame::rows_of(Equation equation) const {
   ArrayXd rows = usable;
-  if (equation != Equation::torsion && accelerations_held.size() > 0) rows *= accelerations_held;
+  const bool accelerates = equation != Equation::torsion || torque_by_inertia;
+  if (accelerates && accelerations_held.size() > 0) rows *= accelerations_held;
   if (equation == Equation::motor && motor_slides.size() > 0) rows *= motor_slides;
   return rows;
 }
@@ -57,6 +58,10 @@ void Frame::hang_pendulum() {
   gravity = pendulum_moment() * load_angle.sin();
   torque = gravity + pendulum_mass() * pendulum_arm() * pendulum_arm() * load_acceleration;
   smooth_torque = torque;
+}
+
+void Frame::weigh_load() {
+  if (torque_by_inertia) torque = load_inertia * load_acceleration;
 }
 
 void Frame::measure_torsion() {

@@ -63,6 +63,9 @@ struct Frame {
   double zero = 0.0;         ///< torsion as recorded from which that of all of them is counted
   bool firm_spring = false;  ///< f is nowhere much softer than in the mean
   double torque_lag = 0.0;   ///< time constant of the filter behind which the torque is recorded, s
+  /// No sensor measures the torque across a free drive's gear: it is J2 theta_l'', without what
+  /// else resists at the load, which the torsion's and the motor's equation have instead.
+  bool torque_by_inertia = false;
   std::vector<Equation> equations;
   std::vector<std::string> notes;  ///< what could not be judged, and why
   std::vector<Segment> segments;
@@ -114,9 +117,11 @@ struct Frame {
   double pendulum_moment() const;
   /// The torque of that pendulum where its load turns: gravity, and with it all of the torque.
   void hang_pendulum();
+  /// The torque that the load's inertia takes, where torque_by_inertia.
+  void weigh_load();
   bool has(Equation equation) const;
-  /// 1 for the rows that an equation is fitted to and judged on: those that are usable, of the
-  /// motor's where it slides.
+  /// 1 for the rows that an equation is fitted to and judged on: those that are usable, of an
+  /// equation with accelerations where these are held, of the motor's where it slides.
   Eigen::ArrayXd rows_of(Equation equation) const;
   /// A signal on those rows, NaN on the others.
   Eigen::ArrayXd judged_part(Equation equation, const Eigen::ArrayXd& signal) const;

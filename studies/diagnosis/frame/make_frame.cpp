@@ -8,8 +8,10 @@
 #include "diagnosis/frame/accelerations.hpp"
 #include "diagnosis/frame/baseline.hpp"
 #include "diagnosis/frame/counted.hpp"
+#include "diagnosis/frame/equations_of.hpp"
 #include "diagnosis/frame/middle.hpp"
 #include "diagnosis/frame/periodic_angle.hpp"
+#include "diagnosis/frame/rate_of.hpp"
 #include "diagnosis/frame/repeats.hpp"
 #include "diagnosis/frame/shared_baseline.hpp"
 #include "diagnosis/frame/smoothed.hpp"
@@ -97,6 +99,7 @@ class FrameMaker {
     frame_.ratio = constant(set, "gear_ratio", 1.0);
     frame_.motor_inertia = constant(set, "motor_inertia_kgm2", 0.0);
     frame_.load_inertia = constant(set, "load_inertia_kgm2", 0.0);
+    frame_.torque_by_inertia = has_torque_by_inertia(set);
     frame_.load_mass = constant(set, "load_mass_kg", 0.0);
     frame_.arm_length = constant(set, "arm_length_m", 0.0);
     for (ArrayXd* channel : all()) channel->setZero(rows);
@@ -154,6 +157,10 @@ class FrameMaker {
     leave_out_hidden_motor();
     if (frame_.rig == Rig::locked || frame_.rig == Rig::free)
       frame_.told_torque = told_torque(frame_);
+    if (frame_.torque_by_inertia) {
+      frame_.smooth_torque = frame_.told_torque;
+      frame_.torque_rate = rate_of(frame_, frame_.told_torque);
+    }
     for (Segment& s : frame_.segments) {
       s.repeat = repeat_of(frame_.motor_angle.segment(s.first, s.count));
     }
@@ -214,6 +221,7 @@ class FrameMaker {
       f.load_acceleration = f.torsion_acceleration;
       return;
     }
+    f.weigh_load();
     if (f.rig == Rig::free) return;  // smoothed as it is
     if (f.rig == Rig::servo) f.hang_pendulum();
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
@@ -336,27 +344,6 @@ class FrameMaker {
   void set_equations(std::vector<Equation> list) { frame_.equations = std::move(list); }
 };
 
-// Which equations the channels allow.
-std::vector<Equation> equations_of(const RecordingSet& set, const Channels& c) {
-  std::vector<Equation> list;
-  const bool torque = !c.drive.transmitted_torque.empty();
-  if (torque) list.push_back(Equation::torsion);
-  if (set.rig == Rig::free && torque && set.constants.contains("load_inertia_kgm2")) {
-    list.push_back(Equation::load);
-  }
-  if (set.rig == Rig::servo) {
-    if (!c.drive.motor_torque.empty() && !c.drive.load_angle.empty()) {
-      return {Equation::motor};
-    }
-    return {};
-  }
-  if (set.rig != Rig::specimen && !c.drive.motor_torque.empty() && torque &&
-      set.constants.contains("motor_inertia_kgm2")) {
-    list.push_back(Equation::motor);
-  }
-  return list;
-}
-
 Index stride_for(const std::vector<const Recording*>& order, Index most_rows) {
   Index total = 0;
   for (const Recording* r : order) total += static_cast<Index>(r->time.size());
@@ -382,13 +369,9 @@ Result<Frame> make_frame(const RecordingSet& set, Index most_rows) {
   for (const Recording* recording : order) {
     const auto channels = channels_of(set, *recording, periodic);
     if (!channels) return tl::unexpected(in_context(channels.error(), recording->id));
-    equations = equations_of(set, *channels);
-    if (equations.empty()) {
-      return failure(ErrorCode::bad_data,
-                     fmt::format("recording {} has no torque to explain", recording->id),
-                     "a diagnosis needs a transmitted torque, torque or force, or on a servo what "
-                     "drives it and the load's angle");
-    }
+    auto allowed = equations_of(set, recording->id, channels->drive);
+    if (!allowed) return tl::unexpected(allowed.error());
+    equations = *std::move(allowed);
     maker.set_travels(recording->find(Quantity::angle) != nullptr);
     maker.add(*channels, stride);
   }

@@ -52,7 +52,7 @@ Sum sum_of(const Frame& frame, Equation equation, std::span<const double> shape)
   }
   for (const double value : shape) sum.add(value);
   if (equation == Equation::torsion) sum.add(frame.torsion), sum.add(frame.torsion_rate);
-  if (equation == Equation::load) sum.add(frame.load_speed);
+  if (equation == Equation::load || frame.torque_by_inertia) sum.add(frame.load_speed);
   if (equation == Equation::motor) sum.add(frame.motor_speed);
   if (equation == Equation::motor && frame.rig == Rig::servo) {
     sum.add(frame.gravity), sum.add(frame.load_acceleration);

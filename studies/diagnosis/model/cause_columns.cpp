@@ -117,16 +117,6 @@ ArrayXd later(const Frame& frame, const ArrayXd& signal, double delay) {
   return shifted;
 }
 
-Eigen::ArrayXd rate_of(const Frame& frame, const Eigen::ArrayXd& signal) {
-  Eigen::ArrayXd rate = Eigen::ArrayXd::Zero(signal.size());
-  for (const Segment& s : frame.segments) {
-    for (Eigen::Index r = s.first + 1; r + 1 < s.first + s.count; ++r) {
-      rate[r] = (signal[r + 1] - signal[r - 1]) / (frame.time[r + 1] - frame.time[r - 1]);
-    }
-  }
-  return rate;
-}
-
 ArrayXd cold_share(const Frame& frame, double time_constant) {
   return (-frame.clock / time_constant).exp();
 }

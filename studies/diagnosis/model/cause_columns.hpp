@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnosis/frame/rate_of.hpp"
 #include "diagnosis/model/cause.hpp"
 
 namespace flexspline::studies {
@@ -40,9 +41,6 @@ std::vector<Term> elements(const std::vector<double>& grid, const Term& each);
 /// A smooth signal a delay later, in every recording: cubic between rows, by the slopes of their
 /// neighbours; held beyond the ends.
 Eigen::ArrayXd later(const Frame& frame, const Eigen::ArrayXd& signal, double delay);
-
-/// Time derivative of a signal along every recording, central differences of rows; 0 at its ends.
-Eigen::ArrayXd rate_of(const Frame& frame, const Eigen::ArrayXd& signal);
 
 /// Fraction of what warms up that is left, exp(-clock/T).
 Eigen::ArrayXd cold_share(const Frame& frame, double time_constant);

@@ -46,6 +46,7 @@ const Frame& ModelColumns::seen(const DriveModel& model) {
   for (const ActiveCause& cause : model.causes) {
     if (cause.form->transform != nullptr) cause.form->transform(*changed_, cause.shape);
   }
+  changed_->weigh_load();
   changed_->measure_torsion();
   changed_by_ = std::move(changes);
   return *changed_;

@@ -35,6 +35,7 @@ PerEquation half_difference(const Frame& frame, const DriveModel& model, const R
     for (const auto& [motion, error] : together) {
       if ((frame.*error).size() > 0) other.*motion = frame.*motion + sign * (frame.*error);
     }
+    other.weigh_load();
     return evaluate(other, model, reference).residual;
   };
   PerEquation half = residual_at(1.0);

@@ -93,6 +93,9 @@ RigConstants rig_constants(const Frame& frame, const DriveModel& model, TorqueGa
   drive.load_inertia = frame.load_inertia;
   if (frame.has(Equation::load)) {
     drive.load_viscous = gains.sensor * model.own[index_of(Equation::load)][0];
+  } else if (frame.torque_by_inertia && frame.has(Equation::torsion)) {
+    const VectorXd& laws = model.own[index_of(Equation::torsion)];
+    drive.load_viscous = laws[laws.size() - 1];
   }
   if (!frame.has(Equation::motor)) return constants;
   VectorXd own = model.own[index_of(Equation::motor)];

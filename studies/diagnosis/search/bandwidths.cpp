@@ -20,6 +20,11 @@ std::vector<std::size_t> all_at(const Frame& frame, std::size_t k) {
   return std::vector<std::size_t>(frame.segments.size(), k);
 }
 
+// Smoothed without end, a torque that is told by an acceleration is explained by no law at all.
+bool is_told_by(const Frame& frame, Equation equation) {
+  return equation != Equation::torsion || !frame.torque_by_inertia;
+}
+
 /// Rows that every bandwidth lets be judged, the same for all of them.
 class JudgedByAll {
  public:
@@ -30,6 +35,7 @@ class JudgedByAll {
   double count(const Segment& s) const {
     double sum = 0.0;
     for (Equation equation : frame_.equations) {
+      if (!is_told_by(frame_, equation)) continue;
       sum += rows(equation).segment(s.first, s.count).sum();
     }
     return sum;
@@ -40,6 +46,7 @@ class JudgedByAll {
   std::vector<double> misfits(const PerEquation& residual) const {
     std::vector<double> misfit(frame_.segments.size(), 0.0);
     for (Equation equation : frame_.equations) {
+      if (!is_told_by(frame_, equation)) continue;
       const ArrayXd all = rows(equation);
       const ArrayXd square = all * residual[index_of(equation)].square();
       for (std::size_t i = 0; i < misfit.size(); ++i) {
