@@ -1,6 +1,10 @@
 #include "flexspline/core/torsion_record.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
+
+#include "flexspline/core/rig_residuals.hpp"
 
 namespace flexspline {
 namespace {
@@ -55,7 +59,21 @@ Result<void> add_specimen_motion(const Recording& recording, TorsionRecord& reco
   return {};
 }
 
-Result<void> add_effort(Rig rig, const Recording& recording, TorsionRecord& record) {
+// Without a torque sensor what the load's inertia takes, J2 theta_l''.
+Result<void> add_inertia_torque(double inertia, const Recording& recording, TorsionRecord& record) {
+  auto channels = drive_channels(Rig::free, {}, recording);
+  if (!channels) return tl::unexpected<Error>(channels.error());
+  record.effort = std::move(channels->load_acceleration);
+  for (double& torque : record.effort) torque *= inertia;
+  return {};
+}
+
+Result<void> add_effort(const RecordingSet& set, const Recording& recording,
+                        TorsionRecord& record) {
+  if (has_torque_by_inertia(set)) {
+    return add_inertia_torque(set.constants.at("load_inertia_kgm2"), recording, record);
+  }
+  const Rig rig = set.rig;
   const bool specimen = rig == Rig::specimen;
   const auto quantity =
       specimen
@@ -79,6 +97,14 @@ std::vector<bool> validity(const Recording& recording) {
 
 }  // namespace
 
+bool has_torque_by_inertia(const RecordingSet& set) {
+  const auto inertia = set.constants.find("load_inertia_kgm2");
+  return set.rig == Rig::free && inertia != set.constants.end() && inertia->second > 0.0 &&
+         std::ranges::none_of(set.recordings, [](const Recording& r) {
+           return r.find(Quantity::transmitted_torque) != nullptr;
+         });
+}
+
 Result<TorsionRecord> torsion_record(const RecordingSet& set, const Recording& recording) {
   if (set.rig == Rig::servo) {
     return failure(
@@ -90,7 +116,7 @@ Result<TorsionRecord> torsion_record(const RecordingSet& set, const Recording& r
   const Result<void> motion = set.rig == Rig::specimen ? add_specimen_motion(recording, record)
                                                        : add_drive_motion(set, recording, record);
   if (!motion) return tl::unexpected<Error>(motion.error());
-  const Result<void> effort = add_effort(set.rig, recording, record);
+  const Result<void> effort = add_effort(set, recording, record);
   if (!effort) return tl::unexpected<Error>(effort.error());
   record.id = recording.id;
   record.split = recording.split;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "flexspline/core/in_parallel.hpp"
+#include "flexspline/core/torsion_record.hpp"
 #include "flexspline/core/write_file.hpp"
 #include "readers/description.hpp"
 #include "readers/recording_table.hpp"
@@ -30,6 +31,11 @@ void read_tables(Description& description, DatasetReading& reading) {
     std::ranges::move(one.errors, std::back_inserter(reading.errors));
     std::ranges::move(one.notes, std::back_inserter(reading.notes));
     std::ranges::move(one.decisions, std::back_inserter(description.set.notes));
+  }
+  if (has_torque_by_inertia(description.set)) {
+    description.set.notes.emplace_back(
+        "no recording measures transmitted_torque: the torque across the gear is that of the "
+        "load's inertia, load_inertia_kgm2 times the acceleration of load_angle");
   }
 }
 

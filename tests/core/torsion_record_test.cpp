@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,6 +46,26 @@ TEST(TorsionRecord, OnTheLockedRigIsTheMotorAngleAtTheOutput) {
   EXPECT_EQ(record.amplitude, 0.5);
   EXPECT_EQ(record.frequency_hz, 0.25);
   EXPECT_FALSE(record.travels);
+}
+
+// J2 theta_l'' of a sine in closed form, but for the smoothing of its ends.
+TEST(TorsionRecord, OnAFreeRigWithoutASensorHasTheTorqueOfTheInertia) {
+  RecordingSet set = bench(Rig::free, {});
+  set.constants["load_inertia_kgm2"] = 2.0;
+  Recording& r = set.recordings.front();
+  r.time.clear();
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 4e-3 * i;
+    r.time.push_back(t);
+    r.channels[Quantity::load_angle].push_back(0.3 * std::sin(5.0 * t));
+    r.channels[Quantity::motor_angle].push_back(15.0 * std::sin(5.0 * t));
+  }
+  const auto record = view(set);
+  for (std::size_t i = 100; i < 900; ++i) {
+    EXPECT_NEAR(record.effort[i], -2.0 * 0.3 * 25.0 * std::sin(5.0 * r.time[i]), 0.05) << i;
+  }
+  set.constants.erase("load_inertia_kgm2");
+  EXPECT_THAT(refusal(set), HasSubstr("no transmitted_torque"));
 }
 
 TEST(TorsionRecord, OnTheFreeRigIsTheDifferenceOfTheShafts) {

@@ -57,6 +57,28 @@ TEST(AsymmetricSpring, IsFoundWithItsSize) {
   }
 }
 
+// A side that is stiffer the further out: f(x) (1 + a tanh(2 x/X)) differs by 2 a tanh 2 at most.
+TEST(AsymmetricSpring, MayDifferMoreAndMore) {
+  constexpr double kExcess = 0.04;
+  Frame frame = closed_form_frame();
+  const Eigen::ArrayXd spring = 5e3 * frame.torsion + 1e9 * frame.torsion.cube();
+  const Eigen::ArrayXd side = (2.0 * frame.torsion / frame.torsion_range).tanh();
+  frame.torque = spring * (1.0 + kExcess * side) + 4.0 * (frame.torsion_rate / 0.02).tanh() +
+                 0.005 * coloured_noise(frame.rows(), 0.0, 17);
+  frame.equations = {Equation::torsion};
+  frame.measure_torsion();
+  frame.torque_range = frame.torque.abs().maxCoeff();
+  const auto findings = fit_baseline(frame);
+  ASSERT_TRUE(findings);
+  const auto trials = try_causes(frame, *findings);
+  ASSERT_EQ(trials.front().cause.row->id, "asymmetric_spring");
+  EXPECT_EQ(trials.front().cause.shape.size(), 1U);
+  EXPECT_NEAR(trials.front().fit.model.coefficients.back()[0], kExcess * std::tanh(2.0), 0.004);
+  const double left =
+      std::sqrt(trials.front().fit.residual[index_of(Equation::torsion)].square().mean());
+  EXPECT_LT(left, 1.1 * 0.005);
+}
+
 class Disturbed : public testing::TestWithParam<Rig> {};
 
 TEST_P(Disturbed, AnAsymmetricSpringIsNoMissingPhysics) {

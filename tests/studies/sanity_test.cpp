@@ -103,6 +103,32 @@ TEST(Sanity, AMotorThatSticksAtItsReversalsIsNotCutOff) {
   }
 }
 
+/// The same under a triangle whose motor comes to its tips at full speed and sticks there.
+RecordingSet triangle_that_sticks() {
+  constexpr double kRate = 0.5, kHeld = 0.1, kTop = 0.2;
+  RecordingSet set = read_in_levels(8e-4, true);
+  Recording& r = set.recordings[0];
+  const double half = 2.0 * kTop / kRate;
+  for (std::size_t i = 0; i < r.time.size(); ++i) {
+    const double within = std::fmod(r.time[i], half + kHeld);
+    const double side = std::fmod(r.time[i], 2.0 * (half + kHeld)) < half + kHeld ? 1.0 : -1.0;
+    const double angle = side * (kRate * std::min(within, half) - kTop);
+    const double turned = std::max(0.0, within - half) / kHeld;
+    r.channels.at(Quantity::motor_angle)[i] = 8e-4 * std::round(angle / 8e-4);
+    r.channels.at(Quantity::transmitted_torque)[i] = 100.0 * angle;
+    r.channels.at(Quantity::motor_torque)[i] = angle + 0.2 * side * (1.0 - 2.0 * turned);
+  }
+  return set;
+}
+
+TEST(Sanity, AMotorThatSticksAtTheTipsOfATriangleIsNotCutOff) {
+  RecordingSet set = triangle_that_sticks();
+  EXPECT_FALSE(raises(set, "clipped"));
+  auto& angles = set.recordings[0].channels.at(Quantity::motor_angle);
+  for (double& angle : angles) angle = std::clamp(angle, -0.16, 0.16);
+  EXPECT_TRUE(raises(set, "clipped")) << "the gear's torque goes on";
+}
+
 void add_row(Recording& r, double t, double load, double motor, double transmitted) {
   r.time.push_back(t);
   r.channels[Quantity::load_angle].push_back(load);

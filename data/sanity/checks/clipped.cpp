@@ -134,8 +134,8 @@ bool goes_on_beyond(const Series& values, double extreme, bool top) {
   return 2 * hiding > flanks;
 }
 
-/// Whether a channel goes on where another is cut off. Behind a locked output the torque of the gear
-/// does where its motor turns on, and the motor's own does while it sticks, too.
+/// Whether a channel goes on where another is cut off. Behind a locked output the torque of the
+/// gear does where its motor turns on, and the motor's own does while it sticks, too.
 bool goes_on_with(const Recording& recording, Rig rig, Quantity cut_off, Quantity other) {
   if (rig != Rig::locked || cut_off != Quantity::motor_angle) return true;
   return other == Quantity::transmitted_torque ||

@@ -1,34 +1,21 @@
 #include "diagnosis/frame/equations_of.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 namespace flexspline::studies {
 namespace {
-
-bool states(const RecordingSet& set, const char* constant) {
-  const auto found = set.constants.find(constant);
-  return found != set.constants.end() && found->second > 0.0;
-}
 
 const char* remedy_on(Rig rig) {
   if (rig == Rig::free) {
     return "measure transmitted_torque, or state load_inertia_kgm2 in [constants]: the load's "
            "inertia then tells it";
   }
-  return "a diagnosis needs a transmitted torque, torque or force, or on a servo what drives it and "
+  return "a diagnosis needs a transmitted torque, torque or force, or on a servo what drives it "
+         "and "
          "the load's angle";
 }
 
 }  // namespace
-
-bool has_torque_by_inertia(const RecordingSet& set) {
-  return set.rig == Rig::free && states(set, "load_inertia_kgm2") &&
-         std::ranges::none_of(set.recordings, [](const Recording& r) {
-           return r.find(Quantity::transmitted_torque) != nullptr;
-         });
-}
 
 Result<std::vector<Equation>> equations_of(const RecordingSet& set, std::string_view recording,
                                            const DriveChannels& c) {

@@ -1,6 +1,7 @@
 #include "diagnosis/frame/frame.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -253,16 +254,19 @@ class FrameMaker {
                     100.0 * std::abs(zero) / reach));
   }
 
-  // Mean torsion where the torque changes its sign; 0 where it does so less than four times.
+  // Mean torsion where the torque changes its sign, of both ways alike: friction parts them. 0
+  // where it does so less than four times.
   double unloaded_at(const Segment& s) const {
-    double sum = 0.0;
-    int count = 0;
+    std::array<double, 2> sum = {0.0, 0.0};
+    std::array<int, 2> count = {0, 0};
     for (Index r = s.first + 1; r < s.first + s.count; ++r) {
       if (frame_.torque[r] * frame_.torque[r - 1] > 0.0) continue;
-      sum += 0.5 * (frame_.torsion[r] + frame_.torsion[r - 1]);
-      ++count;
+      const std::size_t way = frame_.torque[r] > frame_.torque[r - 1] ? 1 : 0;
+      sum[way] += 0.5 * (frame_.torsion[r] + frame_.torsion[r - 1]);
+      ++count[way];
     }
-    return count < 4 ? 0.0 : sum / count;
+    if (std::min(count[0], count[1]) == 0 || count[0] + count[1] < 4) return 0.0;
+    return 0.5 * (sum[0] / count[0] + sum[1] / count[1]);
   }
 
   // Mountings whose zeros differ are each counted from where they are unloaded.

@@ -41,6 +41,9 @@ PerEquation half_difference(const Frame& frame, const DriveModel& model, const R
   PerEquation half = residual_at(1.0);
   const PerEquation below = residual_at(-1.0);
   for (std::size_t e = 0; e < half.size(); ++e) half[e] = 0.5 * (half[e] - below[e]).abs();
+  // That of the load's acceleration is the noise of a torque that it tells.
+  ArrayXd& across = half[index_of(Equation::torsion)];
+  if (frame.torque_by_inertia && together.front().error == kLoad.error) across.setZero();
   return half;
 }
 

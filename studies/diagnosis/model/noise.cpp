@@ -148,6 +148,21 @@ std::vector<double> fast_levels(const Frame& frame, const ArrayXd& residual) {
   return levels;
 }
 
+// What a torque that is told by an acceleration is known to; 0 of those that a sensor measures.
+std::vector<double> known_levels(const Frame& frame, Equation equation) {
+  std::vector<double> levels(frame.segments.size(), 0.0);
+  if (equation != Equation::torsion || !frame.torque_by_inertia) return levels;
+  const ArrayXd rows = frame.rows_of(equation);
+  const ArrayXd error = frame.load_inertia * frame.load_acceleration_error;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Segment& s = frame.segments[i];
+    const ArrayXd there = rows.segment(s.first, s.count);
+    if (there.sum() == 0.0) continue;
+    levels[i] = std::sqrt((error.segment(s.first, s.count).square() * there).sum() / there.sum());
+  }
+  return levels;
+}
+
 }  // namespace
 
 bool is_settled(double level, double before) {
@@ -228,16 +243,23 @@ ArrayXd weights_of(const Frame& frame, Equation equation, const EquationNoise& n
   return (deviation > 0.0).select(frame.rows_of(equation) / deviation, 0.0);
 }
 
-EquationNoise noise_without(const Frame& frame, const ArrayXd& residual, ArrayXd of_motion,
-                            std::vector<double> level) {
+EquationNoise noise_without(const Frame& frame, Equation equation, const ArrayXd& residual,
+                            ArrayXd of_motion, std::vector<double> level) {
   const int passes = level.empty() ? kMostPasses : 1;
-  if (level.empty()) level = noise_levels(frame, residual);
+  const std::vector<double> known = known_levels(frame, equation);
+  const auto levels_of = [&](const ArrayXd& signal) {
+    std::vector<double> levels = noise_levels(frame, signal);
+    std::ranges::transform(levels, known, levels.begin(),
+                           [](double measured, double least) { return std::max(measured, least); });
+    return levels;
+  };
+  if (level.empty()) level = levels_of(residual);
   EquationNoise noise{.level = std::move(level), .of_motion = std::move(of_motion)};
   ArrayXd alone;
   for (int pass = 0; pass < passes; ++pass) {
     alone = (motion_is_known(frame, noise) > 0.0)
                 .select(as_noise_alone(frame, noise, residual), kNotComputed);
-    const auto before = std::exchange(noise.level, noise_levels(frame, alone));
+    const auto before = std::exchange(noise.level, levels_of(alone));
     if (std::ranges::equal(noise.level, before, is_settled)) break;
   }
   noise.colour = noise_colour(frame, alone);

@@ -43,10 +43,11 @@ Eigen::ArrayXd weights_of_fit(const Frame& frame, const Eigen::ArrayXd& weight, 
 /// does.
 bool is_settled(double level, double before);
 
-/// The noise of a residual, measured as it would be if motions had no error, on the rows where
-/// these do no more than noise. level: that known before, by segment; empty: none is, and the one
-/// that settles is taken.
-EquationNoise noise_without(const Frame& frame, const Eigen::ArrayXd& residual,
+/// The noise of an equation's residual, measured as it would be if motions had no error, on the
+/// rows where these do no more than noise. level: that known before, by segment; empty: none is,
+/// and the one that settles is taken. Of a torque that an acceleration tells (torque_by_inertia)
+/// never less than what this is known to: smoothing leaves noise as slow as a law's error.
+EquationNoise noise_without(const Frame& frame, Equation equation, const Eigen::ArrayXd& residual,
                             Eigen::ArrayXd of_motion, std::vector<double> level);
 
 /// Standard deviation of an equation's residual by row, Nm: of its noise and of what errors of

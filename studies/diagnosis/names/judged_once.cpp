@@ -173,7 +173,8 @@ HoldoutProof proof_on(const Frame& all, const ArrayXd& held, Equation equation,
   p.rmse_after = rms_on(after, rows);
   p.ratio = p.rmse_after / p.rmse_before;
   p.noise_floor = noise_of(
-      frame, noise_without(frame, frame.judged_part(equation, after), of_motion, {}), after, rows);
+      frame, noise_without(frame, equation, frame.judged_part(equation, after), of_motion, {}),
+      after, rows);
   take_interval(frame, rows, before, after, p);
   if (equation != Equation::motor) return p;
   for (double* value : {&p.rmse_before, &p.rmse_after, &p.noise_floor}) *value *= all.ratio;

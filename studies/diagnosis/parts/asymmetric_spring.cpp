@@ -18,11 +18,12 @@ Columns size_of_f(Equation, const Frame&, const Reference& reference, Values) {
 }
 
 std::vector<Shape> width(const Frame&) {
-  return {{.name = "width",
-           .unit = "1",
-           .lower = 0.1,
-           .upper = 2.0,
-           .meaning = "of the torque, over its largest, in which the sides go over into each other"}};
+  return {
+      {.name = "width",
+       .unit = "1",
+       .lower = 0.1,
+       .upper = 2.0,
+       .meaning = "of the torque, over its largest, in which the sides go over into each other"}};
 }
 
 // Its largest is that of size_of_f.

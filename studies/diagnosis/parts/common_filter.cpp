@@ -51,9 +51,9 @@ void before_the_filter(Frame& f, Values shape) {
 // The motion T later, by whatever else rounds it off as the torque is: a filter of higher order, or
 // the smoothing of a motion whose acceleration jumps, at a reversal with dry friction.
 void when_it_is_seen(Frame& f, Values shape) {
-  for (ArrayXd* motion : {&f.torsion, &f.torsion_rate, &f.torsion_acceleration, &f.motor_angle,
-                          &f.motor_speed, &f.motor_acceleration, &f.load_angle, &f.load_speed,
-                          &f.load_acceleration}) {
+  for (ArrayXd* motion :
+       {&f.torsion, &f.torsion_rate, &f.torsion_acceleration, &f.motor_angle, &f.motor_speed,
+        &f.motor_acceleration, &f.load_angle, &f.load_speed, &f.load_acceleration}) {
     *motion = later(f, *motion, shape[0]);
   }
   f.torque_lag = shape[0];

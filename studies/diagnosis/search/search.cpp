@@ -98,7 +98,8 @@ Noise measured_noise(const Frame& frame, const Findings& findings) {
   for (Equation equation : frame.equations) {
     const std::size_t e = index_of(equation);
     const ArrayXd residual = frame.judged_part(equation, findings.fit.residual[e]);
-    noise[e] = noise_without(frame, residual, std::move(of_motion[e]), findings.noise[e].level);
+    noise[e] =
+        noise_without(frame, equation, residual, std::move(of_motion[e]), findings.noise[e].level);
   }
   return noise;
 }
