@@ -115,7 +115,8 @@ RecordingSet triangle_that_sticks() {
     const double angle = side * (kRate * std::min(within, half) - kTop);
     const double turned = std::max(0.0, within - half) / kHeld;
     r.channels.at(Quantity::motor_angle)[i] = 8e-4 * std::round(angle / 8e-4);
-    r.channels.at(Quantity::transmitted_torque)[i] = 100.0 * angle;
+    r.channels.at(Quantity::transmitted_torque)[i] =
+        100.0 * angle + 0.05 * std::sin(311.0 * r.time[i]);
     r.channels.at(Quantity::motor_torque)[i] = angle + 0.2 * side * (1.0 - 2.0 * turned);
   }
   return set;

@@ -22,9 +22,10 @@ constexpr std::size_t kLeastRow = 4;
 constexpr double kAgainstLevels = 4.0;  // times as many as at any of the levels next to it
 constexpr std::size_t kLevels = 12;
 constexpr double kPartnerMoves = 0.08;  // of its range, while the channel is at its extreme
-constexpr std::size_t kFlank = 8;       // samples beside a row that tell speed and deceleration
-constexpr double kTurnsWithin = 0.5;    // of the row: the time in which what was cut off turns
-constexpr double kHidden = 2.0;         // levels: what was cut off is more than rounding
+constexpr double kTurns = 0.25;  // of what it changes by there: a parabola's middle half does half
+constexpr std::size_t kFlank = 8;     // samples beside a row that tell speed and deceleration
+constexpr double kTurnsWithin = 0.5;  // of the row: the time in which what was cut off turns
+constexpr double kHidden = 2.0;       // levels: what was cut off is more than rounding
 
 struct AtExtreme {
   double value = 0.0;
@@ -134,12 +135,19 @@ bool goes_on_beyond(const Series& values, double extreme, bool top) {
   return 2 * hiding > flanks;
 }
 
-/// Whether a channel goes on where another is cut off. Behind a locked output the torque of the
-/// gear does where its motor turns on, and the motor's own does while it sticks, too.
-bool goes_on_with(const Recording& recording, Rig rig, Quantity cut_off, Quantity other) {
-  if (rig != Rig::locked || cut_off != Quantity::motor_angle) return true;
-  return other == Quantity::transmitted_torque ||
-         recording.find(Quantity::transmitted_torque) == nullptr;
+/// Whether the torque of a gear is further out in the middle of a row than at its ends, by part
+/// of what it changes by in it: it turns where its angle is cut off, and falls back where that
+/// rests.
+bool turns_in(const Series& torque, const AtExtreme& extreme) {
+  const Eigen::Map<const Eigen::ArrayXd> all(torque.data(),
+                                             static_cast<Eigen::Index>(torque.size()));
+  const auto row = static_cast<Eigen::Index>(extreme.row);
+  const Eigen::ArrayXd part = all.segment(static_cast<Eigen::Index>(extreme.first), row);
+  const double out = part.mean() > all.mean() ? 1.0 : -1.0;
+  const Eigen::Index quarter = row / 4;
+  const double ends = 0.5 * (part.head(quarter).mean() + part.tail(quarter).mean());
+  const double middle = part.segment(quarter, row - 2 * quarter).mean();
+  return out * (middle - ends) > kTurns * (part.maxCoeff() - part.minCoeff());
 }
 
 /// Range of another channel over the longest row, of its own.
@@ -149,7 +157,6 @@ double partner_moves(const ObservedSet& all, const Recording& recording, Quantit
   for (const Quantity other : telling_channels(all.set)) {
     const Series* values = recording.find(other);
     if (other == quantity || values == nullptr || !(range_of(*values) > 0.0)) continue;
-    if (!goes_on_with(recording, all.set.rig, quantity, other)) continue;
     const auto part = std::span(*values).subspan(extreme.first, extreme.row);
     most = std::max(most, range_of(part) / range_of(*values));
   }
@@ -164,6 +171,12 @@ bool is_clipped(const ObservedSet& all, const Recording& recording, Quantity qua
   const auto beside = static_cast<double>(at_levels_beside(values, extreme.value, top));
   if (static_cast<double>(extreme.count) < kAgainstLevels * beside) return false;
   if (is_position(quantity) && !goes_on_beyond(values, extreme.value, top)) return false;
+  // Of a locked drive the motor's torque moves while it sticks, too, and the gear's follows its
+  // angle.
+  const Series* torque = recording.find(Quantity::transmitted_torque);
+  if (all.set.rig == Rig::locked && quantity == Quantity::motor_angle && torque != nullptr) {
+    return turns_in(*torque, extreme);
+  }
   return partner_moves(all, recording, quantity, extreme) > kPartnerMoves;
 }
 
