@@ -12,7 +12,6 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
-constexpr double kLowestOfJoint = 5.0;
 constexpr double kMostRows = 0.5;
 // Of the largest speed. Beyond 3 the loop answers with 0.95 of all and more, as the plain form;
 // below 0.03 with a thirtieth at most where the motor is fastest.
@@ -22,8 +21,6 @@ constexpr double kLeastDamping = 0.3, kMostDamping = 3.0;
 // Of the motor under the largest torque, rad: less turns no phase that could be told, and a gear is
 // not wound up by more.
 constexpr double kLeastWindup = 0.01, kMostWindup = 1.0;
-constexpr std::string_view kOfTheMotor =
-    "a model file has ripples at the motor, which a joint that is moved alone does not show";
 constexpr std::string_view kOfTheLoop =
     "a control loop is no part of the gear; at rest the ripple is what the parameters say";
 
@@ -45,19 +42,6 @@ std::vector<Shape> turns_and_zero(const Frame& f) {
                     .logarithmic = false,
                     .meaning = "phase of the ripple at which the channel was zeroed"});
   return shapes;
-}
-
-// Of a joint that travels a lower order is an error of its gear as well, which has that name.
-std::vector<Shape> turns_beyond_the_gear(const Frame& f) {
-  auto shapes = turns(f);
-  shapes[0].lower = kLowestOfJoint;
-  return shapes;
-}
-
-bool travels_geared(const Frame& f) { return travels(f) && geared(f); }
-
-bool ripples_beyond_the_gear(double order) {
-  return order >= kLowestOfJoint && order <= kHighestOrder;
 }
 
 bool winds_up(const Frame& f) { return geared(f) && f.torque_range > 0.0; }
@@ -286,16 +270,7 @@ CauseRow describe_motor_torque_ripple() {
                      .terms = cogging_terms,
                      .columns = ripple_of_servo,
                      .where = winds_up,
-                     .no_counterpart = kOfTheLoop},
-                    {.equation = "tau += a sin k N q + b cos k N q",
-                     .rigs = {Rig::specimen},
-                     .at = {Equation::torsion},
-                     .shapes = turns_beyond_the_gear,
-                     .terms = cogging_terms,
-                     .columns = ripple,
-                     .where = travels_geared,
-                     .ripples = ripples_beyond_the_gear,
-                     .no_counterpart = kOfTheMotor}}};
+                     .no_counterpart = kOfTheLoop}}};
 }
 
 }  // namespace flexspline::studies

@@ -238,7 +238,7 @@ class FrameMaker {
     if (f.travels || f.own_zeros || f.rig == Rig::servo || (f.torque == 0.0).all()) return;
     Series zeros;
     for (const Segment& s : f.segments) {
-      if (const double zero = unloaded_at(s); zero != 0.0) zeros.push_back(zero);
+      if (const double zero = unloaded_at(s).at; zero != 0.0) zeros.push_back(zero);
     }
     if (zeros.empty()) return;
     const double zero = middle(zeros);
@@ -254,9 +254,13 @@ class FrameMaker {
                     100.0 * std::abs(zero) / reach));
   }
 
-  // Mean torsion where the torque changes its sign, of both ways alike: friction parts them. 0
-  // where it does so less than four times.
-  double unloaded_at(const Segment& s) const {
+  /// Mean torsion where the torque changes its sign; 0 where it does so less than four times.
+  struct Unloaded {
+    double at = 0.0;
+    double of_ways = 0.0;  ///< mean of those where it rises and where it falls: friction parts them
+  };
+
+  Unloaded unloaded_at(const Segment& s) const {
     std::array<double, 2> sum = {0.0, 0.0};
     std::array<int, 2> count = {0, 0};
     for (Index r = s.first + 1; r < s.first + s.count; ++r) {
@@ -265,8 +269,9 @@ class FrameMaker {
       sum[way] += 0.5 * (frame_.torsion[r] + frame_.torsion[r - 1]);
       ++count[way];
     }
-    if (std::min(count[0], count[1]) == 0 || count[0] + count[1] < 4) return 0.0;
-    return 0.5 * (sum[0] / count[0] + sum[1] / count[1]);
+    if (count[0] + count[1] < 4 || std::min(count[0], count[1]) == 0) return {};
+    return {(sum[0] + sum[1]) / (count[0] + count[1]),
+            0.5 * (sum[0] / count[0] + sum[1] / count[1])};
   }
 
   // Mountings whose zeros differ are each counted from where they are unloaded.
@@ -274,14 +279,16 @@ class FrameMaker {
     Frame& f = frame_;
     if (f.rig != Rig::specimen || f.travels) return;
     ArrayXd zeros(static_cast<Index>(f.segments.size()));
-    double widest = 0.0;
+    double widest = 0.0, furthest = 0.0;
     for (Index i = 0; i < zeros.size(); ++i) {
       const Segment& s = f.segments[static_cast<std::size_t>(i)];
-      zeros[i] = unloaded_at(s);
+      const auto [at, of_ways] = unloaded_at(s);
+      zeros[i] = at;
+      furthest = std::max(furthest, std::min(std::abs(at), std::abs(of_ways)));
       const auto part = f.torsion.segment(s.first, s.count);
       widest = std::max(widest, 0.5 * (part.maxCoeff() - part.minCoeff()));
     }
-    if (zeros.abs().maxCoeff() < kSameZero * widest) return;
+    if (furthest < kSameZero * widest) return;
     for (Index i = 0; i < zeros.size(); ++i) {
       const Segment& s = f.segments[static_cast<std::size_t>(i)];
       f.torsion.segment(s.first, s.count) -= zeros[i];
