@@ -9,7 +9,6 @@
 namespace flexspline::studies {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -17,11 +16,13 @@ Diagnosis diagnosed_without(std::uint64_t seed, std::vector<data::HiddenEffect> 
   return diagnosed(without_sensor(drawn_case(Rig::free, seed, std::move(effects)).recordings));
 }
 
-TEST(WithoutTorqueSensor, NothingMissingIsAdequate) {
-  const Diagnosis d = diagnosed_without(11, {});
-  EXPECT_THAT(names(d), ElementsAre());
-  EXPECT_EQ(d.verdict, Verdict::adequate) << d.says;
-  EXPECT_THAT(d.baseline_model, HasSubstr("load inertia and drag"));
+// More than noise may be left: the load's acceleration is known to no better than its encoder.
+TEST(WithoutTorqueSensor, NothingMissingIsNeverNamed) {
+  for (const std::uint64_t seed : {11U, 13U, 14U}) {
+    const Diagnosis d = diagnosed_without(seed, {});
+    EXPECT_THAT(names(d), ElementsAre()) << seed << ": " << d.says;
+    EXPECT_THAT(d.baseline_model, HasSubstr("load inertia and drag"));
+  }
 }
 
 class NamedWithoutTorqueSensor : public testing::TestWithParam<const char*> {};

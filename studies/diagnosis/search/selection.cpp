@@ -18,18 +18,23 @@ bool admissible(const Trial& trial, const Limits& limits) {
          !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
 }
 
-// The best, or a part of the baseline beside which it gains less than a name has to; one that has a
-// shape more than it needs is no simpler than a cause.
+// The best, or a part of the baseline beside which it gains less than a name has to, of several the
+// first by its id. One that has a shape more than it needs is no simpler than a cause.
 std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const Limits& limits) {
   const auto may_be = [&](const Trial& trial) {
     return admissible(trial, limits) && std::ranges::count(s.redundant, trial.cause.row) == 0;
   };
   const auto best = std::ranges::find_if(trials, may_be);
-  const auto part = std::ranges::find_if(trials, [&](const Trial& trial) {
-    return may_be(trial) && trial.cause.row->of_baseline() && !trial.cause.form->extends &&
-           trial.gain > best->gain - limits.named_gain;
-  });
-  return static_cast<std::size_t>((part != trials.end() ? part : best) - trials.begin());
+  auto first = best;
+  for (auto trial = best; trial != trials.end(); ++trial) {
+    const bool goes_first = may_be(*trial) && trial->cause.row->of_baseline() &&
+                            !trial->cause.form->extends &&
+                            trial->gain > best->gain - limits.named_gain;
+    if (!goes_first) continue;
+    const bool is_part = first->cause.row->of_baseline();
+    if (!is_part || trial->cause.row->id < first->cause.row->id) first = trial;
+  }
+  return static_cast<std::size_t>(first - trials.begin());
 }
 
 bool is_material(const Trial& trial, const Limits& limits) {
