@@ -133,16 +133,14 @@ double parameter(const ModelSpec& model, std::string_view effect, std::string_vi
   return std::nan("");
 }
 
-/// s, as notes say it of a filter and of what rounds off besides; NaN where none does.
+/// s, as a note says it; NaN where none does.
 double common_filter_of(const Diagnosis& d) {
-  double sum = 0.0;
-  for (const std::string before : {"behind one filter of ", "rounded off alike, over "}) {
-    for (const std::string& note : d.notes) {
-      const auto at = note.find(before);
-      if (at != std::string::npos) sum += std::stod(note.substr(at + before.size()));
-    }
+  const std::string before = "behind one filter of ";
+  for (const std::string& note : d.notes) {
+    const auto at = note.find(before);
+    if (at != std::string::npos) return std::stod(note.substr(at + before.size()));
   }
-  return sum > 0.0 ? sum : std::nan("");
+  return std::nan("");
 }
 
 TEST(LateTorque, IsToldFromTheInertiaThatItHides) {

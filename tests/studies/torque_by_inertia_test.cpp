@@ -40,6 +40,7 @@ TEST(TorqueByInertia, IsWhatTheFrameOfSuchRecordingsHas) {
   EXPECT_TRUE(frame->torque.isApprox(frame->load_inertia * frame->load_acceleration));
 }
 
+// The drag at the load and the encoder's steps part them: a few percent of this bench's torque.
 TEST(TorqueByInertia, IsNearWhatASensorMeasures) {
   const RecordingSet set = drawn_case(Rig::free, 3).recordings;
   const auto with = make_frame(set, 4000);

@@ -10,9 +10,8 @@ const char* remedy_on(Rig rig) {
     return "measure transmitted_torque, or state load_inertia_kgm2 in [constants]: the load's "
            "inertia then tells it";
   }
-  return "a diagnosis needs a transmitted torque, torque or force, or on a servo what drives it "
-         "and "
-         "the load's angle";
+  return "a diagnosis needs a transmitted torque, torque or force, or on a servo what drives "
+         "it and the load's angle";
 }
 
 }  // namespace

@@ -45,7 +45,18 @@ void before_the_filter(Frame& f, Values shape) {
   undo(f, shape[0], f.load_angle, f.load_speed, f.load_acceleration);
   undo(f, shape[0], f.torsion, f.torsion_rate, f.torsion_acceleration);
   if (f.rig == Rig::servo) f.hang_pendulum();
-  f.torque_lag += shape[0];
+  f.torque_lag = shape[0];
+}
+
+// The motion T later, by whatever else rounds it off as the torque is: a filter of higher order, or
+// the smoothing of a motion whose acceleration jumps, at a reversal with dry friction.
+void when_it_is_seen(Frame& f, Values shape) {
+  for (ArrayXd* motion :
+       {&f.torsion, &f.torsion_rate, &f.torsion_acceleration, &f.motor_angle, &f.motor_speed,
+        &f.motor_acceleration, &f.load_angle, &f.load_speed, &f.load_acceleration}) {
+    *motion = later(f, *motion, shape[0]);
+  }
+  f.torque_lag = shape[0];
 }
 
 std::string in_words(const Frame&, const DriveModel& model, std::size_t cause) {
@@ -65,6 +76,14 @@ CauseRow describe_common_filter() {
                      .at = {Equation::torsion},
                      .shapes = time_constant,
                      .transform = before_the_filter,
+                     .start = short_one,
+                     .where = travels,
+                     .no_counterpart = kOfTheBench},
+                    {.equation = "T tau' + tau = tau(x(t + T))",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = time_constant,
+                     .transform = when_it_is_seen,
                      .start = short_one,
                      .where = travels,
                      .no_counterpart = kOfTheBench},

@@ -192,12 +192,15 @@ void keep_the_best(std::vector<FirstLook>& looks) {
   looks.resize(worth);
 }
 
+// Of each cause its best form; of a part of the baseline all, as which of them goes first is not
+// for the gain alone to say.
 void keep_best_of_each(std::vector<Trial>& trials) {
   std::ranges::stable_sort(trials, std::ranges::greater{}, &Trial::net_gain);
   std::vector<Trial> best;
   for (Trial& trial : trials) {
-    const bool known =
-        std::ranges::any_of(best, [&](const Trial& t) { return t.cause.row == trial.cause.row; });
+    const bool known = std::ranges::any_of(best, [&](const Trial& t) {
+      return t.cause.row == trial.cause.row && !t.cause.row->of_baseline();
+    });
     if (!known) best.push_back(std::move(trial));
   }
   trials = std::move(best);

@@ -18,23 +18,26 @@ bool admissible(const Trial& trial, const Limits& limits) {
          !is_no_part(*trial.cause.row, trial.fit.model.coefficients.back());
 }
 
-// The best, or a part of the baseline beside which it gains less than a name has to, of several the
-// first by its id. One that has a shape more than it needs is no simpler than a cause.
+// The best, or a part of the baseline beside which it gains less than a name has to, in the first
+// of its forms that does as well. One that has a shape more than it needs is no simpler than a
+// cause.
 std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const Limits& limits) {
   const auto may_be = [&](const Trial& trial) {
     return admissible(trial, limits) && std::ranges::count(s.redundant, trial.cause.row) == 0;
   };
   const auto best = std::ranges::find_if(trials, may_be);
-  auto first = best;
-  for (auto trial = best; trial != trials.end(); ++trial) {
-    const bool goes_first = may_be(*trial) && trial->cause.row->of_baseline() &&
-                            !trial->cause.form->extends &&
-                            trial->gain > best->gain - limits.named_gain;
-    if (!goes_first) continue;
-    const bool is_part = first->cause.row->of_baseline();
-    if (!is_part || trial->cause.row->id < first->cause.row->id) first = trial;
+  const auto goes_first = [&](const Trial& trial) {
+    return may_be(trial) && trial.cause.row->of_baseline() && !trial.cause.form->extends &&
+           trial.gain > best->gain - limits.named_gain;
+  };
+  auto part = std::ranges::find_if(trials, goes_first);
+  if (part == trials.end()) return static_cast<std::size_t>(best - trials.begin());
+  for (auto other = part; other != trials.end(); ++other) {
+    const bool plainer =
+        other->cause.row == part->cause.row && other->cause.form < part->cause.form;
+    if (plainer && goes_first(*other)) part = other;
   }
-  return static_cast<std::size_t>(first - trials.begin());
+  return static_cast<std::size_t>(part - trials.begin());
 }
 
 bool is_material(const Trial& trial, const Limits& limits) {
