@@ -21,7 +21,7 @@ TEST(WithoutTorqueSensor, NothingMissingIsNeverNamed) {
   for (const std::uint64_t seed : {11U, 13U, 14U}) {
     const Diagnosis d = diagnosed_without(seed, {});
     EXPECT_THAT(names(d), ElementsAre()) << seed << ": " << d.says;
-    EXPECT_THAT(d.baseline_model, HasSubstr("load inertia and drag"));
+    EXPECT_THAT(d.baseline_model, HasSubstr("no sensor measures, by load inertia and drag"));
   }
 }
 

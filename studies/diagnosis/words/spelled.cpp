@@ -153,7 +153,10 @@ std::string baseline_in_words(const Frame& frame) {
   std::string words = "f, g, h full trajectory, f and g odd and rising";
   if (frame.firm_spring) words += ", f nowhere much softer than in the mean";
   if (frame.travels) words = "f(angle) free, Coulomb and viscous friction";
-  if (frame.has(Equation::load) || frame.torque_by_inertia) words += "; load inertia and drag";
+  if (frame.has(Equation::load)) words += "; load inertia and drag";
+  if (frame.torque_by_inertia) {
+    words += "; the torque across the gear, which no sensor measures, by load inertia and drag";
+  }
   if (frame.has(Equation::motor)) words += "; motor inertia, viscous and Coulomb friction";
   return words;
 }
