@@ -1,4 +1,5 @@
 // Where a specimen is unloaded, friction says for each way of its own.
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -40,6 +41,23 @@ TEST(ZerosByFriction, AreThatOfBothWays) {
   const auto apart = make_frame(damper({0.0, 4e-3, 0.0, -4e-3}), 8000);
   ASSERT_TRUE(apart);
   EXPECT_TRUE(apart->own_zeros);
+}
+
+TEST(ZerosByFriction, TellWhatWasRecorded) {
+  const std::vector<double> zeros = {0.0, 4e-3, 0.0, -4e-3};
+  for (const auto& set : {damper(zeros), damper({6e-3, 6e-3})}) {
+    const auto frame = make_frame(set, 8000);
+    ASSERT_TRUE(frame);
+    ASSERT_NE(frame->own_zeros, frame->zero != 0.0);
+    for (const Segment& s : frame->segments) {
+      const auto recording = std::ranges::find(set.recordings, s.id, &Recording::id);
+      const auto& recorded = *recording->find(Quantity::displacement);
+      for (Eigen::Index i = 0; i < s.count; ++i) {
+        ASSERT_NEAR(frame->torsion[s.first + i] + frame->zero + s.zero,
+                    recorded[static_cast<std::size_t>(i)], 1e-6);
+      }
+    }
+  }
 }
 
 }  // namespace

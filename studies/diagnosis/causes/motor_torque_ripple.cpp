@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -13,6 +14,7 @@ using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
 constexpr double kMostRows = 0.5;
+constexpr double kPasses = 2.0;  // of its turns by a torsion: f follows what comes less often
 // Of the largest speed. Beyond 3 the loop answers with 0.95 of all and more, as the plain form;
 // below 0.03 with a thirtieth at most where the motor is fastest.
 constexpr double kSlowestCorner = 0.03, kFastestCorner = 3.0;
@@ -21,6 +23,8 @@ constexpr double kLeastDamping = 0.3, kMostDamping = 3.0;
 // Of the motor under the largest torque, rad: less turns no phase that could be told, and a gear is
 // not wound up by more.
 constexpr double kLeastWindup = 0.01, kMostWindup = 1.0;
+constexpr std::string_view kOfTheTorque =
+    "a specimen has no motor: the torque was told by one, whose ripple is no part of the gear";
 constexpr std::string_view kOfTheLoop =
     "a control loop is no part of the gear; at rest the ripple is what the parameters say";
 
@@ -42,6 +46,37 @@ std::vector<Shape> turns_and_zero(const Frame& f) {
                     .logarithmic = false,
                     .meaning = "phase of the ripple at which the channel was zeroed"});
   return shapes;
+}
+
+// Of a specimen, the output of whose gear is held: the torsion as recorded, times the ratio.
+ArrayXd motor_angle_of_specimen(const Frame& f) {
+  ArrayXd torsion = f.torsion + f.zero;
+  for (const Segment& s : f.segments) torsion.segment(s.first, s.count) += s.zero;
+  return f.ratio * torsion;
+}
+
+// That which the widest recording passes kPasses times.
+double lowest_order_beside_f(const Frame& f) {
+  double widest = 0.0;
+  for (const Segment& s : f.segments) {
+    const auto torsion = f.torsion.segment(s.first, s.count);
+    widest = std::max(widest, f.ratio * (torsion.maxCoeff() - torsion.minCoeff()));
+  }
+  return std::ceil(kPasses * 2.0 * std::numbers::pi / widest);
+}
+
+std::vector<Shape> turns_beside_f(const Frame& f) {
+  auto shapes = turns(f);
+  shapes.front().lower = lowest_order_beside_f(f);
+  return shapes;
+}
+
+bool ripples_beside_f(const Frame& f) {
+  return geared(f) && !f.travels && lowest_order_beside_f(f) <= kHighestOrder;
+}
+
+Columns ripple_of_specimen(Equation, const Frame& f, const Reference&, Values shape) {
+  return sine_pair(motor_angle_of_specimen(f), shape[0]);
 }
 
 bool winds_up(const Frame& f) { return geared(f) && f.torque_range > 0.0; }
@@ -244,6 +279,15 @@ CauseRow describe_motor_torque_ripple() {
                      .columns = ripple_under_current,
                      .where = geared,
                      .counterpart = under_current},
+                    {.equation = "tau += a sin k N phi + b cos k N phi, phi as recorded",
+                     .rigs = {Rig::specimen},
+                     .at = {Equation::torsion},
+                     .shapes = turns_beside_f,
+                     .terms = cogging_terms,
+                     .columns = ripple_of_specimen,
+                     .where = ripples_beside_f,
+                     .ripples = ripples,
+                     .no_counterpart = kOfTheTorque},
                     {.equation = "tau_f += T(a sin k theta_m + b cos k theta_m), what a loop, the "
                                  "motor and the gear leave of it",
                      .rigs = {Rig::free},

@@ -31,6 +31,7 @@ struct Segment {
   Split split = Split::unassigned;
   Repeat repeat = {};
   std::size_t bandwidth = 0;  ///< of its accelerations: which of Frame::accelerations
+  double zero = 0.0;  ///< torsion as recorded from which its own is counted, beside Frame::zero
 };
 
 /// A stretch of one recording that has something of its own, and is left out.

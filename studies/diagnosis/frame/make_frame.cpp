@@ -290,8 +290,9 @@ class FrameMaker {
     }
     if (furthest < kSameZero * widest) return;
     for (Index i = 0; i < zeros.size(); ++i) {
-      const Segment& s = f.segments[static_cast<std::size_t>(i)];
+      Segment& s = f.segments[static_cast<std::size_t>(i)];
       f.torsion.segment(s.first, s.count) -= zeros[i];
+      s.zero = zeros[i];
     }
     f.load_angle = f.motor_angle = f.torsion;
     f.own_zeros = true;

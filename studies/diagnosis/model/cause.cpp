@@ -76,9 +76,9 @@ std::vector<const CauseForm*> forms_on(const CauseRow& row, const Frame& frame) 
     const bool exists = std::ranges::count(form.rigs, frame.rig) > 0;
     const bool seen =
         std::ranges::any_of(form.at, [&](Equation equation) { return frame.has(equation); });
-    const bool fits = form.where == nullptr || form.where(frame);
+    const bool fits = exists && (form.where == nullptr || form.where(frame));
     const bool whole = !frame.torque_by_inertia || !acts_on(form, Equation::load);
-    if (exists && seen && fits && whole) list.push_back(&form);
+    if (seen && fits && whole) list.push_back(&form);
   }
   return list;
 }

@@ -36,10 +36,11 @@ void take_zeros(const Frame& from, Frame& to) {
     to.zero = from.zero;
     if (to.rig == Rig::specimen) to.load_angle = to.motor_angle = to.torsion;
   }
-  for (const Segment& s : to.segments) {
+  for (Segment& s : to.segments) {
     const Segment* known = segment_of(from, s.id);
     if (known == nullptr || !from.own_zeros) continue;
     to.torsion.segment(s.first, s.count) += from.torsion[known->first] - to.torsion[s.first];
+    s.zero = known->zero;
   }
   if (from.own_zeros) to.load_angle = to.motor_angle = to.torsion;
 }

@@ -14,8 +14,9 @@ constexpr double kSettled = 2e-4;  // the same, of the last one
 
 void move(Frame& frame, const ArrayXd& by) {
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-    const Segment& s = frame.segments[i];
+    Segment& s = frame.segments[i];
     frame.torsion.segment(s.first, s.count) += by[static_cast<Index>(i)];
+    s.zero -= by[static_cast<Index>(i)];
   }
   frame.load_angle = frame.motor_angle = frame.torsion;
 }

@@ -28,14 +28,21 @@ std::string names_in_words(const std::vector<Cause>& causes) {
   return listed(names);
 }
 
+// "order 21, " of a ripple over the motor's angle: a whole number, which was tried, not fitted.
+std::string order_of(const ActiveCause& cause) {
+  const bool has_one = cause.form->ripples != nullptr && !cause.shape.empty();
+  return has_one ? fmt::format("order {:.0f}, ", cause.shape.front()) : "";
+}
+
 // The part of the model that has a form, but no name.
 std::string part_in_words(const std::vector<Accepted>& unnamed) {
   std::vector<std::string> forms;
   for (const Accepted& a : unnamed) {
     const CauseRow& row = *a.trial.cause.row;
     forms.push_back(!row.in_catalogue() ? fmt::format("{} (outside the catalogue)", row.outside)
-                    : a.material        ? fmt::format("{} (p = {:.2g})", row.id, a.probability)
-                                        : fmt::format("{} (too small to be named)", row.id));
+                    : a.material ? fmt::format("{} ({}p = {:.2g})", row.id, order_of(a.trial.cause),
+                                               a.probability)
+                                 : fmt::format("{} (too small to be named)", row.id));
   }
   return fmt::format("a part whose name is uncertain, in the form of {},", listed(forms));
 }
