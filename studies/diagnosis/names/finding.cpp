@@ -36,28 +36,15 @@ Result<Findings> first_model(const Frame& frame, const Limits& limits, const Pro
   return refresh(frame, model, kRefreshSteps).map([&] { return std::move(model); });
 }
 
-// Counted from where a model fits every recording best.
-Result<void> take_zeros(Frame& frame, Findings model) {
-  auto moved = with_fitted_zeros(frame, std::move(model));
-  if (!moved) return tl::unexpected(moved.error());
-  frame = std::move(*moved);
-  return {};
-}
-
-// With every recording counted from where the causes fit it best. Zeros belong to the baseline:
-// first it has them without a cause, which would make up for one that is off.
+// With every recording counted from where the causes fit it best.
 Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& progress,
                           const Selection* from) {
   if (!frame.own_zeros) return select_causes(frame, limits, progress, from);
-  if (from == nullptr) {
-    const auto zeros = fit_baseline(frame).and_then(
-        [&](Findings&& baseline) { return take_zeros(frame, std::move(baseline)); });
-    if (!zeros) return tl::unexpected(zeros.error());
-  }
-  const auto zeros = first_model(frame, limits, progress, from).and_then([&](Findings&& model) {
-    return take_zeros(frame, std::move(model));
-  });
-  if (!zeros) return tl::unexpected(zeros.error());
+  const auto model = first_model(frame, limits, progress, from);
+  if (!model) return tl::unexpected(model.error());
+  auto moved = with_fitted_zeros(frame, *model);
+  if (!moved) return tl::unexpected(moved.error());
+  frame = std::move(*moved);
   return select_causes(frame, limits, progress);
 }
 
