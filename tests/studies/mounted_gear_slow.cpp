@@ -55,6 +55,9 @@ TEST(Zeros, OfEveryMountingAreFoundAgain) {
   const double common = mean_torsion(*fitted, 0);
   for (std::size_t i = 0; i < off.segments.size(); ++i) {
     EXPECT_NEAR(mean_torsion(*fitted, i), common, 1e-5) << i;
+    const Segment& was = off.segments[i];
+    const double recorded = off.torsion[was.first] + was.zero;
+    EXPECT_NEAR(fitted->torsion[was.first] + fitted->segments[i].zero, recorded, 1e-12) << i;
   }
 }
 

@@ -14,7 +14,7 @@ using Values = std::span<const double>;
 
 constexpr double kHighestOrder = 36.0;
 constexpr double kMostRows = 0.5;
-constexpr double kPasses = 2.0;  // of its turns by a torsion: f follows what comes less often
+constexpr double kPeriods = 2.0;  // of a specimen's widest motion, at least: slower ones are f
 // Of the largest speed. Beyond 3 the loop answers with 0.95 of all and more, as the plain form;
 // below 0.03 with a thirtieth at most where the motor is fastest.
 constexpr double kSlowestCorner = 0.03, kFastestCorner = 3.0;
@@ -55,14 +55,14 @@ ArrayXd motor_angle_of_specimen(const Frame& f) {
   return f.ratio * torsion;
 }
 
-// That which the widest recording passes kPasses times.
+// That of which the widest recording has kPeriods.
 double lowest_order_beside_f(const Frame& f) {
   double widest = 0.0;
   for (const Segment& s : f.segments) {
     const auto torsion = f.torsion.segment(s.first, s.count);
     widest = std::max(widest, f.ratio * (torsion.maxCoeff() - torsion.minCoeff()));
   }
-  return std::ceil(kPasses * 2.0 * std::numbers::pi / widest);
+  return std::ceil(kPeriods * 2.0 * std::numbers::pi / widest);
 }
 
 std::vector<Shape> turns_beside_f(const Frame& f) {

@@ -39,7 +39,7 @@ void take_zeros(const Frame& from, Frame& to) {
   for (Segment& s : to.segments) {
     const Segment* known = segment_of(from, s.id);
     if (known == nullptr || !from.own_zeros) continue;
-    to.torsion.segment(s.first, s.count) += from.torsion[known->first] - to.torsion[s.first];
+    to.torsion.segment(s.first, s.count) += s.zero - known->zero;
     s.zero = known->zero;
   }
   if (from.own_zeros) to.load_angle = to.motor_angle = to.torsion;
