@@ -297,8 +297,9 @@ class FrameMaker {
     f.load_angle = f.motor_angle = f.torsion;
     f.own_zeros = true;
     f.notes.emplace_back(
-        "the zeros of the recordings differ: each, held out or not, is counted from where the "
-        "model fits it best, one number a recording");
+        "the zeros of the recordings differ: each is counted from where the model fits it best, "
+        "one "
+        "number a recording; one that a search did not have, from where it is unloaded");
   }
 
   // What a joint did before its recording began still moves the torque behind a filter or a delay.
