@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "flexspline/core/counts.hpp"
 
@@ -30,6 +31,26 @@ std::vector<double> counted_motor(const Recording& recording, double bandwidth) 
   if (angle == nullptr) angle = recording.find(Quantity::load_angle);
   if (angle == nullptr) return std::vector<double>(recording.time.size(), 1.0);
   return counted(recording.time, *angle, bandwidth);
+}
+
+std::vector<double> torsion_error(const Recording& recording, Rig rig, double ratio,
+                                  const DriveChannels& smooth) {
+  const bool locked = rig == Rig::locked;
+  std::vector<double> error = locked ? smooth.motor_angle_error : smooth.torsion_error;
+  error.resize(recording.time.size());
+  if (locked) std::ranges::for_each(error, [&](double& one) { one /= ratio; });
+  if (!locked && rig != Rig::free) return error;
+  for (const auto& [quantity, gear] :
+       {std::pair(Quantity::motor_angle, ratio), std::pair(Quantity::load_angle, 1.0)}) {
+    const std::vector<double>* angle = recording.find(quantity);
+    if (angle == nullptr) continue;
+    const double within = level_of_counts(*angle) / (gear * std::sqrt(12.0));
+    const auto tells = counted(recording.time, *angle, smooth.motor_bandwidth);
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      if (tells[i] == 0.0) error[i] = std::hypot(error[i], within);
+    }
+  }
+  return error;
 }
 
 }  // namespace flexspline::studies

@@ -127,7 +127,7 @@ class FrameMaker {
     put(frame_.torsion, d.torsion), put(frame_.torsion_rate, d.torsion_rate);
     put(frame_.torsion_acceleration, d.torsion_acceleration);
     put(frame_.motor_speed_error, d.motor_speed_error);
-    put(frame_.torsion_error, frame_.rig == Rig::locked ? d.motor_angle_error : d.torsion_error);
+    put(frame_.torsion_error, torsion_error(*c.recording, frame_.rig, frame_.ratio, d));
     put(frame_.torsion_rate_error, d.torsion_rate_error);
     put(frame_.motor_acceleration_error, d.motor_acceleration_error);
     put(frame_.load_acceleration_error, d.load_acceleration_error);
@@ -227,7 +227,6 @@ class FrameMaker {
     if (f.rig == Rig::servo) f.hang_pendulum();
     f.torsion = f.motor_angle / f.ratio - f.load_angle;
     f.torsion_rate = f.motor_speed / f.ratio - f.load_speed;
-    f.torsion_error /= f.ratio;
     f.torsion_rate_error = f.motor_speed_error / f.ratio;
     f.torsion_acceleration = f.motor_acceleration / f.ratio - f.load_acceleration;
   }
