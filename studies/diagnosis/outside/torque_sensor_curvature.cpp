@@ -7,10 +7,11 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 // The square, as a sensor is set to zero where nothing pulls, and Legendre's third polynomial, of
-// which a gain has no part, as it is set to the best line.
+// which a gain has no part, as it is set to the best line. Of the torque that the torsion tells: a
+// polynomial of what was read would explain its noise by its noise.
 Columns curved(Equation equation, const Frame& f, const Reference&, Values) {
-  const double largest = f.smooth_torque.abs().maxCoeff();
-  const ArrayXd x = f.smooth_torque / largest;
+  const double largest = f.told_torque.abs().maxCoeff();
+  const ArrayXd x = f.told_torque / largest;
   return of_torque_signal(equation, f,
                           {largest * x.square(), largest * (2.5 * x.square() - 1.5) * x});
 }
