@@ -130,6 +130,29 @@ TEST(Sanity, AMotorThatSticksAtTheTipsOfATriangleIsNotCutOff) {
   EXPECT_TRUE(raises(set, "clipped")) << "the gear's torque goes on";
 }
 
+/// A free drive that is moved from one place to another, quickly at first, and rests there, again
+/// and again, while its motor's torque holds it.
+TEST(Sanity, AnAngleThatRestsAtTheSamePlaceAgainIsNotCutOff) {
+  constexpr double kMove = 0.4, kPeriod = 2.0, kTop = 60.0, kLevel = 0.02;
+  RecordingSet set;
+  set.rig = Rig::free;
+  set.constants = {{"gear_ratio", 50.0}, {"motor_inertia_kgm2", 1e-4}, {"load_inertia_kgm2", 1.0}};
+  Recording& r = set.recordings.emplace_back();
+  r.id = "pick and place";
+  for (double t = 0.0; t < 12.0; t += 2e-3) {
+    const double within = std::fmod(t, kPeriod);
+    const double rise = std::min(within / kMove, 1.0);
+    const double fall = std::clamp((within - 0.5 * kPeriod) / kMove, 0.0, 1.0);
+    const auto moved = [](double s) { return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s); };
+    const double angle = kTop * (moved(rise) - moved(fall));
+    r.time.push_back(t);
+    r.channels[Quantity::motor_angle].push_back(kLevel * std::round(angle / kLevel));
+    r.channels[Quantity::load_angle].push_back(angle / 50.0);
+    r.channels[Quantity::motor_torque].push_back(0.3 * std::sin(17.0 * t));
+  }
+  EXPECT_FALSE(raises(set, "clipped"));
+}
+
 void add_row(Recording& r, double t, double load, double motor, double transmitted) {
   r.time.push_back(t);
   r.channels[Quantity::load_angle].push_back(load);

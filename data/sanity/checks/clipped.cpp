@@ -24,6 +24,7 @@ constexpr std::size_t kLevels = 12;
 constexpr double kPartnerMoves = 0.08;  // of its range, while the channel is at its extreme
 constexpr double kTurns = 0.25;  // of what it changes by there: a parabola's middle half does half
 constexpr std::size_t kFlank = 8;     // samples beside a row that tell speed and deceleration
+constexpr double kNear = 0.1;         // of the range: further out no parabola tells how it comes
 constexpr double kTurnsWithin = 0.5;  // of the row: the time in which what was cut off turns
 constexpr double kHidden = 2.0;       // levels: what was cut off is more than rounding
 
@@ -100,14 +101,17 @@ double level_beside(const Series& values, double extreme, bool top) {
   return least;
 }
 
-/// How far from the extreme the samples are from one of them on, one way, until another is at it.
+/// How far from the extreme the samples are from one of them on, one way, until another is at it or
+/// one is too far away.
 std::vector<double> gone_from(const Series& values, double extreme, std::ptrdiff_t from,
                               std::ptrdiff_t way, std::size_t most) {
+  const double far = kNear * range_of(values);
   std::vector<double> gone;
   const auto size = static_cast<std::ptrdiff_t>(values.size());
   for (std::ptrdiff_t i = from; i >= 0 && i < size && gone.size() < most; i += way) {
     const double value = values[static_cast<std::size_t>(i)];
     if (value == extreme) break;
+    if (gone.size() >= kFlank && std::abs(extreme - value) > far) break;
     gone.push_back(std::abs(extreme - value));
   }
   return gone;
