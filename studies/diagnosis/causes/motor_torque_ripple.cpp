@@ -12,9 +12,11 @@ using Eigen::ArrayXcd;
 using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
-constexpr double kHighestOrder = 36.0;
+// As many as slots and poles have in common, as 36 and 40 of a joint's motor (360); where the load
+// tells the motor's angle, or the torsion of a specimen, no more than these are known to.
+constexpr double kHighestOrder = 400.0, kHighestTold = 36.0;
 constexpr double kMostRows = 0.5;
-constexpr double kPeriods = 2.0;  // of a specimen's widest motion, at least: slower ones are f
+constexpr double kPeriods = 2.0;  // of the widest motion of a held output: slower ones are f
 // Of the largest speed. Beyond 3 the loop answers with 0.95 of all and more, as the plain form;
 // below 0.03 with a thirtieth at most where the motor is fastest.
 constexpr double kSlowestCorner = 0.03, kFastestCorner = 3.0;
@@ -28,11 +30,15 @@ constexpr std::string_view kOfTheTorque =
 constexpr std::string_view kOfTheLoop =
     "a control loop is no part of the gear; at rest the ripple is what the parameters say";
 
-std::vector<Shape> turns(const Frame&) {
+double highest_order(const Frame& f) {
+  return f.rig == Rig::locked || f.rig == Rig::free ? kHighestOrder : kHighestTold;
+}
+
+std::vector<Shape> turns(const Frame& f) {
   return {{.name = "order",
            .unit = "1",
            .lower = 1.0,
-           .upper = kHighestOrder,
+           .upper = highest_order(f),
            .discrete = true,
            .meaning = "of a turn of the motor"}};
 }
@@ -48,7 +54,7 @@ std::vector<Shape> turns_and_zero(const Frame& f) {
   return shapes;
 }
 
-// Of a specimen, the output of whose gear is held: the torsion as recorded, times the ratio.
+// Of a gear whose output is held: the torsion as recorded, times the ratio.
 ArrayXd motor_angle_of_specimen(const Frame& f) {
   ArrayXd torsion = f.torsion + f.zero;
   for (const Segment& s : f.segments) torsion.segment(s.first, s.count) += s.zero;
@@ -72,7 +78,7 @@ std::vector<Shape> turns_beside_f(const Frame& f) {
 }
 
 bool ripples_beside_f(const Frame& f) {
-  return geared(f) && !f.travels && lowest_order_beside_f(f) <= kHighestOrder;
+  return geared(f) && !f.travels && lowest_order_beside_f(f) <= highest_order(f);
 }
 
 Columns ripple_of_specimen(Equation, const Frame& f, const Reference&, Values shape) {
@@ -260,6 +266,14 @@ CauseRow describe_motor_torque_ripple() {
                      .columns = ripple,
                      .where = geared,
                      .ripples = ripples,
+                     .counterpart = cogging},
+                    {.equation = "tau_f += a sin k theta_m + b cos k theta_m",
+                     .rigs = {Rig::locked},
+                     .at = {Equation::motor},
+                     .shapes = turns_beside_f,
+                     .terms = cogging_terms,
+                     .columns = ripple,
+                     .where = ripples_beside_f,
                      .counterpart = cogging},
                     {.equation = "tau_m,recorded = tau_m + a (sin k theta_m - sin p) + b (cos k "
                                  "theta_m - cos p)",

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "diagnosis/search/linearised.hpp"
+#include "diagnosis/search/strong_orders.hpp"
 #include "flexspline/core/estimate.hpp"
 #include "flexspline/core/in_parallel.hpp"
 
@@ -20,27 +21,53 @@ constexpr double kWorthRefining = 0.03;   // of the best first gain
 constexpr double kWorthFinishing = 0.6;   // of the best gain when refined
 constexpr std::size_t kMostRefined = 12;  // the best was never beyond the seventh in 188 searches
 constexpr std::size_t kMostThreads = 8;
+constexpr int kEachOrder = 36;         // up to here every order is tried
+constexpr std::size_t kStrongest = 4;  // of those beyond
 
 double on_grid(const Shape& s, double share) {
   return s.logarithmic ? s.lower * std::pow(s.upper / s.lower, share)
                        : s.lower + share * (s.upper - s.lower);
 }
 
+/// Where a form starts from, and of how many values of its first shape these are the ones to try.
+struct Starts {
+  std::vector<std::vector<double>> shapes;
+  std::size_t tried;
+};
+
+// Every value of a small grid; of orders beyond the first dozens those that what is left shows.
+std::vector<double> first_values(const CauseForm& form, const Shape& s, const Frame& frame,
+                                 const Findings& findings) {
+  std::vector<double> values;
+  if (!s.discrete) {
+    for (int k = 0; k < s.grid; ++k) values.push_back(on_grid(s, (k + 0.5) / s.grid));
+    return values;
+  }
+  const auto lowest = static_cast<int>(s.lower), highest = static_cast<int>(s.upper);
+  const int each = std::min(highest, std::max(lowest, kEachOrder));
+  for (int order = lowest; order <= each; ++order) values.push_back(order);
+  if (each == highest) return values;
+  const auto strong =
+      strong_orders(frame, findings, form.at.front(), each + 1, highest, kStrongest);
+  values.insert(values.end(), strong.begin(), strong.end());
+  return values;
+}
+
 // The first shape on its grid, the others in the middle of theirs.
-std::vector<std::vector<double>> starts(const CauseForm& form, const Frame& frame) {
-  if (form.shapes == nullptr) return {{}};
-  if (form.start != nullptr) return {form.start(frame)};
+Starts starts(const CauseForm& form, const Frame& frame, const Findings& findings) {
+  if (form.shapes == nullptr) return {{{}}, 1};
+  if (form.start != nullptr) return {{form.start(frame)}, 1};
   const auto shapes = form.shapes(frame);
   const Shape& first = shapes.front();
   std::vector<double> middle;
   for (const Shape& s : shapes) middle.push_back(on_grid(s, 0.5));
   std::vector<std::vector<double>> list;
-  const int count = first.discrete ? static_cast<int>(first.upper - first.lower) + 1 : first.grid;
-  for (int k = 0; k < count; ++k) {
+  for (const double value : first_values(form, first, frame, findings)) {
     list.push_back(middle);
-    list.back().front() = first.discrete ? first.lower + k : on_grid(first, (k + 0.5) / count);
+    list.back().front() = value;
   }
-  return list;
+  const double count = first.discrete ? first.upper - first.lower + 1.0 : first.grid;
+  return {std::move(list), static_cast<std::size_t>(count)};
 }
 
 int parameters_of(const ActiveCause& cause, const ModelFit& fit) {
@@ -89,9 +116,10 @@ class Neighbourhood {
   std::map<std::vector<Equation>, std::unique_ptr<const Linearised>> known_;
 };
 
-void look_at(const Frame& frame, FirstLook& look) {
-  for (auto& shape : starts(*look.form, frame)) {
-    ++look.tried;
+void look_at(const Frame& frame, const Findings& findings, FirstLook& look) {
+  const Starts from = starts(*look.form, frame, findings);
+  look.tried = from.tried;
+  for (const auto& shape : from.shapes) {
     // A change of the motion starts from next to nothing: a few steps show what it is worth.
     const int steps = look.form->start != nullptr ? kFirstSteps : 0;
     const auto fit = look.about->with({look.row, look.form, shape}, steps);
@@ -178,7 +206,8 @@ std::vector<FirstLook> look_at_all(const Frame& frame, const Findings& findings,
         looks.push_back({&row, form, &near.of(*form), {}, -1.0, 0});
     }
   }
-  in_parallel(looks.size(), searchers(threads), [&](std::size_t i) { look_at(frame, looks[i]); });
+  in_parallel(looks.size(), searchers(threads),
+              [&](std::size_t i) { look_at(frame, findings, looks[i]); });
   return looks;
 }
 
