@@ -76,6 +76,35 @@ TEST(Counted, NoSmoothingIsTwoSamples) {
   EXPECT_EQ(std::ranges::count(tells, 1.0), 498) << "all but the ends";
 }
 
+/// A drive that moves at a speed told by its levels, then stands for as long.
+Recording moved_then_stood() {
+  Recording r;
+  for (int i = 0; i < 4000; ++i) {
+    const double angle = 20.0 * kSlowest * kInterval * std::min(i, 2000) + 1e-3;
+    r.time.push_back(kInterval * i);
+    r.channels[Quantity::motor_angle].push_back(kLevel * std::round(angle / kLevel));
+    r.channels[Quantity::load_angle].push_back(1e-4 * std::round(angle / 50.0 / 1e-4));
+  }
+  return r;
+}
+
+// Uniform within a level, of both encoders: no mean over a standing count makes it smaller.
+TEST(TorsionError, OfAnAngleThatRestsIsThatOfItsLevel) {
+  const Recording r = moved_then_stood();
+  DriveChannels smooth;
+  smooth.motor_bandwidth = kBandwidth;
+  smooth.torsion_error.assign(r.time.size(), 3e-6);
+  smooth.motor_angle_error.assign(r.time.size(), 5e-4);
+  const auto free = torsion_error(r, Rig::free, 50.0, smooth);
+  const double levels = std::hypot(kLevel / 50.0, 1e-4) / std::sqrt(12.0);
+  EXPECT_DOUBLE_EQ(free[1000], 3e-6);
+  EXPECT_NEAR(free[3000], std::hypot(3e-6, levels), 1e-12);
+  const auto locked = torsion_error(r, Rig::locked, 50.0, smooth);
+  EXPECT_DOUBLE_EQ(locked[1000], 5e-4 / 50.0);
+  EXPECT_GT(locked[3000], kLevel / 50.0 / std::sqrt(12.0));
+  EXPECT_EQ(torsion_error(r, Rig::specimen, 1.0, smooth), smooth.torsion_error);
+}
+
 TEST(Counted, AnAngleWithoutLevelsIsToldEverywhere) {
   std::mt19937_64 engine(3);
   std::normal_distribution<double> noise(0.0, 1e-4);

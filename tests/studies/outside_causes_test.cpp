@@ -71,12 +71,26 @@ TEST(OutsideCauses, AMemoryHoldsBackAsMuchAsItsReach) {
 // nothing pulls.
 TEST(OutsideCauses, ACurveHasNoPartOfAGain) {
   Frame frame = closed_form_frame(4001 * 2);
-  frame.smooth_torque = ArrayXd::LinSpaced(8002, -40.0, 40.0);
+  frame.told_torque = ArrayXd::LinSpaced(8002, -40.0, 40.0);
   for (const ArrayXd& column :
        columns_of(form_of("torque_sensor_curvature"), Equation::load, frame)) {
-    EXPECT_NEAR((column * frame.smooth_torque).mean() / 40.0, 0.0, 0.02);
+    EXPECT_NEAR((column * frame.told_torque).mean() / 40.0, 0.0, 0.02);
     EXPECT_NEAR(column.abs().maxCoeff(), 40.0, 1e-9);
     EXPECT_NEAR(column[4000], 0.0, 0.01) << "at no torque";
+  }
+}
+
+// Noise of a sensor that hears nothing above its own band is as smooth as what it measures. A
+// polynomial of both has the noise in its slope, and takes it off where it is -1.
+TEST(OutsideCauses, ACurveTakesNothingOfTheNoise) {
+  Frame frame = closed_form_frame();
+  frame.torque = frame.told_torque + 0.5 * normal(frame.rows(), 11);
+  frame.smooth_torque = frame.torque;
+  const ArrayXd noise = frame.torque - frame.told_torque;
+  for (const ArrayXd& column :
+       columns_of(form_of("torque_sensor_curvature"), Equation::load, frame)) {
+    const double along = (column * noise).mean() / std::sqrt(column.square().mean());
+    EXPECT_LT(std::abs(along), 4.0 * 0.5 / std::sqrt(static_cast<double>(frame.rows())));
   }
 }
 
