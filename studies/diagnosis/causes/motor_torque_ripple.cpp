@@ -87,7 +87,7 @@ Columns ripple_of_specimen(Equation, const Frame& f, const Reference&, Values sh
 
 bool winds_up(const Frame& f) { return geared(f) && f.torque_range > 0.0; }
 
-bool ripples(double order) { return order >= 1.0 && order <= kHighestOrder; }
+bool ripples(double order) { return order >= 1.0 && order <= kHighestTold; }
 
 Columns ripple(Equation, const Frame& f, const Reference&, Values shape) {
   return sine_pair(f.motor_angle, shape[0]);
