@@ -35,11 +35,13 @@ std::vector<double> counted_motor(const Recording& recording, double bandwidth) 
 
 std::vector<double> torsion_error(const Recording& recording, Rig rig, double ratio,
                                   const DriveChannels& smooth) {
-  const bool locked = rig == Rig::locked;
-  std::vector<double> error = locked ? smooth.motor_angle_error : smooth.torsion_error;
+  if (rig != Rig::locked && rig != Rig::free) return smooth.torsion_error;
+  std::vector<double> error = smooth.torsion_error;
+  if (rig == Rig::locked) {
+    error = smooth.motor_angle_error;
+    for (double& one : error) one /= ratio;
+  }
   error.resize(recording.time.size());
-  if (locked) std::ranges::for_each(error, [&](double& one) { one /= ratio; });
-  if (!locked && rig != Rig::free) return error;
   for (const auto& [quantity, gear] :
        {std::pair(Quantity::motor_angle, ratio), std::pair(Quantity::load_angle, 1.0)}) {
     const std::vector<double>* angle = recording.find(quantity);

@@ -21,10 +21,10 @@ std::vector<double> counted(std::span<const double> time, std::span<const double
 /// a servo. 1 everywhere where there is none.
 std::vector<double> counted_motor(const Recording& recording, double bandwidth);
 
-/// Standard deviation of the torsion of a locked or a free drive by sample, rad: of its smoothing,
-/// and of where the angle stands within a level q of an encoder, q/sqrt(12), as long as its levels
-/// do not tell the motion (counted()) and no mean is taken over them. An angle that rests is not
-/// known better for being read a thousand times.
+/// Standard deviation of the torsion by sample, rad: of its smoothing and, on locked and free
+/// drives, of where the angle stands within a level q of an encoder, q/sqrt(12), as long as its
+/// levels do not tell the motion (counted()) and no mean is taken over them. An angle that rests is
+/// not known better for being read a thousand times.
 std::vector<double> torsion_error(const Recording& recording, Rig rig, double ratio,
                                   const DriveChannels& smooth);
 
