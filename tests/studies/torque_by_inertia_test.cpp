@@ -5,9 +5,7 @@
 #include "diagnosis/frame/baseline.hpp"
 #include "diagnosis/frame/equations_of.hpp"
 #include "diagnosis/model/cause.hpp"
-#include "diagnosis/model/motion_error.hpp"
 #include "diagnosis/model/noise.hpp"
-#include "diagnosis/search/search.hpp"
 #include "drive_frame.hpp"
 #include "without_sensor.hpp"
 
@@ -122,28 +120,6 @@ TEST(TorqueByInertia, IsNoSurerThanTheAcceleration) {
   for (const double level : noise_without(f, Equation::motor, small, {}, {}).level) {
     EXPECT_NEAR(level, 1e-3, 2e-4);
   }
-}
-
-// Noise that is there everywhere is the level's; a row that is less known than the others has the
-// rest as an error of its motion.
-TEST(TorqueByInertia, IsLessSureWhereTheAccelerationIs) {
-  Frame f = by_inertia();
-  f.load_acceleration_error = ArrayXd::Constant(f.rows(), 0.3);
-  f.load_acceleration_error.segment(100, 20).setConstant(3.0);
-  f.torsion_rate_error = f.torsion_error = f.motor_speed_error = f.motor_acceleration_error =
-      ArrayXd::Zero(f.rows());
-  const auto levels = levels_of_weighing(f, Equation::torsion);
-  const double rows = static_cast<double>(f.segments[0].count);
-  EXPECT_NEAR(levels[0], f.load_inertia * std::sqrt((0.09 * (rows - 20.0) + 9.0 * 20.0) / rows),
-              1e-9);
-  EXPECT_NEAR(levels[1], f.load_inertia * 0.3, 1e-9);
-  const Findings model = *fit_baseline(f);
-  const ArrayXd beyond =
-      torque_of_motion_error(f, model.fit.model, model.reference)[index_of(Equation::torsion)];
-  EXPECT_NEAR(beyond[110], std::sqrt(9.0 * f.load_inertia * f.load_inertia - levels[0] * levels[0]),
-              1e-6);
-  EXPECT_EQ(beyond[1000], 0.0);
-  EXPECT_EQ(levels_of_weighing(f, Equation::motor)[0], 0.0);
 }
 
 }  // namespace

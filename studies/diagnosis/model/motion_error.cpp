@@ -1,7 +1,6 @@
 #include "diagnosis/model/motion_error.hpp"
 
-#include <cmath>
-#include <utility>
+#include <vector>
 
 namespace flexspline::studies {
 namespace {
@@ -28,16 +27,6 @@ std::vector<std::vector<Known>> errors_on(Rig rig) {
   return {{kRate}};
 }
 
-// The error of a torque that an acceleration tells is its noise: what is left is by how much some
-// rows are less known than their recording.
-void take_off_noise(const Frame& frame, ArrayXd& error) {
-  const std::vector<double> noise = levels_of_weighing(frame, Equation::torsion);
-  for (std::size_t i = 0; i < noise.size(); ++i) {
-    auto of_recording = error.segment(frame.segments[i].first, frame.segments[i].count);
-    of_recording = (of_recording.square() - noise[i] * noise[i]).max(0.0).sqrt();
-  }
-}
-
 PerEquation half_difference(const Frame& frame, const DriveModel& model, const Reference& reference,
                             const std::vector<Known>& together) {
   Frame other = frame;
@@ -52,25 +41,13 @@ PerEquation half_difference(const Frame& frame, const DriveModel& model, const R
   PerEquation half = residual_at(1.0);
   const PerEquation below = residual_at(-1.0);
   for (std::size_t e = 0; e < half.size(); ++e) half[e] = 0.5 * (half[e] - below[e]).abs();
-  if (together.front().error == kLoad.error)
-    take_off_noise(frame, half[index_of(Equation::torsion)]);
+  // That of the load's acceleration is the noise of a torque that it tells.
+  ArrayXd& across = half[index_of(Equation::torsion)];
+  if (frame.torque_by_inertia && together.front().error == kLoad.error) across.setZero();
   return half;
 }
 
 }  // namespace
-
-std::vector<double> levels_of_weighing(const Frame& frame, Equation equation) {
-  std::vector<double> levels(frame.segments.size(), 0.0);
-  if (equation != Equation::torsion || !frame.torque_by_inertia) return levels;
-  const ArrayXd rows = frame.rows_of(equation);
-  const ArrayXd squares = (frame.load_inertia * frame.load_acceleration_error).square() * rows;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const auto [first, count] = std::pair(frame.segments[i].first, frame.segments[i].count);
-    const double there = rows.segment(first, count).sum();
-    if (there > 0.0) levels[i] = std::sqrt(squares.segment(first, count).sum() / there);
-  }
-  return levels;
-}
 
 PerEquation torque_of_motion_error(const Frame& frame, const DriveModel& model,
                                    const Reference& reference) {

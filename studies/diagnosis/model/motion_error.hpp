@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "diagnosis/model/model.hpp"
 
 namespace flexspline::studies {
@@ -12,13 +10,8 @@ namespace flexspline::studies {
 /// that turns on a motion, as hysteresis and friction do about a reversal and a spring where it is
 /// kicked, tells no more there than the motion is known. On a locked rig the torsion's rate is the
 /// motor's speed, on a servo both accelerations are one; on specimens the rate alone. Empty where
-/// the rate's error is not known. Of a torque that an acceleration tells, the error is its noise,
-/// and what counts here is by how much some rows are less known than levels_of_weighing().
+/// the rate's error is not known.
 PerEquation torque_of_motion_error(const Frame& frame, const DriveModel& model,
                                    const Reference& reference);
-
-/// What a torque that the load's acceleration tells (Frame::torque_by_inertia) is known to, rms
-/// over the rows of each segment, Nm; 0 of those that a sensor measures, and of other equations.
-std::vector<double> levels_of_weighing(const Frame& frame, Equation equation);
 
 }  // namespace flexspline::studies

@@ -7,7 +7,6 @@
 #include "diagnosis/frame/middle.hpp"
 #include "diagnosis/frame/repeats.hpp"
 #include "diagnosis/frame/running.hpp"
-#include "diagnosis/model/motion_error.hpp"
 #include "flexspline/core/estimate.hpp"
 
 namespace flexspline::studies {
@@ -149,6 +148,21 @@ std::vector<double> fast_levels(const Frame& frame, const ArrayXd& residual) {
   return levels;
 }
 
+// What a torque that is told by an acceleration is known to; 0 of those that a sensor measures.
+std::vector<double> known_levels(const Frame& frame, Equation equation) {
+  std::vector<double> levels(frame.segments.size(), 0.0);
+  if (equation != Equation::torsion || !frame.torque_by_inertia) return levels;
+  const ArrayXd rows = frame.rows_of(equation);
+  const ArrayXd error = frame.load_inertia * frame.load_acceleration_error;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Segment& s = frame.segments[i];
+    const ArrayXd there = rows.segment(s.first, s.count);
+    if (there.sum() == 0.0) continue;
+    levels[i] = std::sqrt((error.segment(s.first, s.count).square() * there).sum() / there.sum());
+  }
+  return levels;
+}
+
 }  // namespace
 
 bool is_settled(double level, double before) {
@@ -232,7 +246,7 @@ ArrayXd weights_of(const Frame& frame, Equation equation, const EquationNoise& n
 EquationNoise noise_without(const Frame& frame, Equation equation, const ArrayXd& residual,
                             ArrayXd of_motion, std::vector<double> level) {
   const int passes = level.empty() ? kMostPasses : 1;
-  const std::vector<double> known = levels_of_weighing(frame, equation);
+  const std::vector<double> known = known_levels(frame, equation);
   const auto levels_of = [&](const ArrayXd& signal) {
     std::vector<double> levels = noise_levels(frame, signal);
     std::ranges::transform(levels, known, levels.begin(),
