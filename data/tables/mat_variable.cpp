@@ -88,7 +88,6 @@ bool MatVariable::is_numeric() const {
 }
 
 bool MatVariable::is_struct() const { return variable_->class_type == MAT_C_STRUCT; }
-bool MatVariable::is_cell() const { return variable_->class_type == MAT_C_CELL; }
 
 std::size_t MatVariable::rows() const { return variable_->rank > 0 ? variable_->dims[0] : 0; }
 
@@ -134,7 +133,9 @@ std::vector<std::string> MatVariable::fields() const {
   return names;
 }
 
+/// Of a damaged struct matio knows the size and the names, and has no elements.
 MatVariable MatVariable::field(const std::string& name, std::size_t element) const {
+  if (variable_->data == nullptr || element >= elements()) return MatVariable(nullptr);
   return MatVariable(Mat_VarGetStructFieldByName(variable_, name.c_str(), element));
 }
 
@@ -147,10 +148,6 @@ MatVariable MatVariable::any_field(std::initializer_list<std::string_view> names
     }
   }
   return MatVariable(nullptr);
-}
-
-MatVariable MatVariable::cell(std::size_t index) const {
-  return MatVariable(Mat_VarGetCell(variable_, static_cast<int>(index)));
 }
 
 }  // namespace flexspline::data

@@ -16,7 +16,6 @@ class MatVariable {
   std::string name() const;
   bool is_numeric() const;
   bool is_struct() const;
-  bool is_cell() const;
   bool is_complex() const { return variable_->isComplex != 0; }
   std::size_t rows() const;
   std::size_t columns() const;  ///< of all further dimensions together
@@ -28,13 +27,12 @@ class MatVariable {
   /// Characters; empty where it is no text.
   std::string text() const;
 
-  std::size_t elements() const;  ///< of a struct array or cell
+  std::size_t elements() const;  ///< of a struct array
   std::vector<std::string> fields() const;
   MatVariable field(const std::string& name, std::size_t element = 0) const;
   /// By its name in any letters: Time, time.
   MatVariable any_field(std::initializer_list<std::string_view> names,
                         std::size_t element = 0) const;
-  MatVariable cell(std::size_t index) const;
 
  private:
   matvar_t* variable_;
