@@ -1,3 +1,4 @@
+#include "flexspline/core/column_products.hpp"
 #include "flexspline/core/error.hpp"
 #include "flexspline/core/lane_kernels.hpp"
 
@@ -5,14 +6,17 @@ namespace flexspline {
 
 namespace lanes_baseline {
 LaneKernel find(LaneFormula formula, int lanes);
-}
+ColumnProducts find_products();
+}  // namespace lanes_baseline
 #ifdef FLEXSPLINE_X86_KERNELS
 namespace lanes_avx2 {
 LaneKernel find(LaneFormula formula, int lanes);
-}
+ColumnProducts find_products();
+}  // namespace lanes_avx2
 namespace lanes_avx512 {
 LaneKernel find(LaneFormula formula, int lanes);
-}
+ColumnProducts find_products();
+}  // namespace lanes_avx512
 #endif
 
 InstructionSet best_instruction_set() {
@@ -46,6 +50,15 @@ LaneKernel lane_kernel(InstructionSet set, LaneFormula formula, int lanes) {
   expects(found != nullptr,
           "a kernel takes 2, 4 or 8 SIMD lanes, up to what its instructions hold");
   return found;
+}
+
+ColumnProducts column_products(InstructionSet set) {
+#ifdef FLEXSPLINE_X86_KERNELS
+  if (set == InstructionSet::avx512) return lanes_avx512::find_products();
+  if (set == InstructionSet::avx2) return lanes_avx2::find_products();
+#endif
+  expects(set == InstructionSet::baseline, "a kernel of instructions that are not built");
+  return lanes_baseline::find_products();
 }
 
 }  // namespace flexspline

@@ -1,5 +1,6 @@
 // Everything that a kernel is made of, for the translation unit that defines FLEXSPLINE_LANES (the
 // namespace) and FLEXSPLINE_MOST_LANES before it. Includes nothing but plain declarations.
+#include "flexspline/core/column_products.hpp"
 #include "flexspline/core/lane_kernels.hpp"
 
 namespace flexspline::FLEXSPLINE_LANES {
@@ -11,6 +12,8 @@ namespace {
 #include "kernels/lane_radau.hpp"
 #include "kernels/lane_rate.hpp"
 #include "kernels/lane_runge_kutta.hpp"
+// after the numbers that it is made of
+#include "kernels/column_tiles.hpp"
 
 template <int kLanes>
 LaneKernel kernel(LaneFormula formula) {
@@ -30,5 +33,7 @@ LaneKernel find(LaneFormula formula, int lanes) {
 #endif
   return nullptr;
 }
+
+ColumnProducts find_products() { return multiply_columns<FLEXSPLINE_MOST_LANES>; }
 
 }  // namespace flexspline::FLEXSPLINE_LANES

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include "flexspline/core/column_products.hpp"
 #include "flexspline/estimators/bounded_least_squares.hpp"
 #include "flexspline/estimators/separable.hpp"
 
@@ -13,11 +14,16 @@ constexpr double kDifference = 1e-4;  // of a shape's range
 constexpr double kMostDamping = 1e7;
 constexpr double kLeastDamping = 1e-6;
 
+/// a^T b, or of it what lies on and below the diagonal.
+Eigen::MatrixXd products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, bool lower) {
+  static const ColumnProducts multiply = column_products(best_instruction_set());
+  Eigen::MatrixXd product(a.cols(), b.cols());
+  multiply({a.data(), a.cols()}, {b.data(), b.cols()}, a.rows(), lower, product.data());
+  return product;
+}
+
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  if (columns.size() == 0) return gram;
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  return gram.selfadjointView<Eigen::Lower>();
+  return products(columns, columns, true).selfadjointView<Eigen::Lower>();
 }
 
 Eigen::MatrixXd gram_of(const SeparableBlock& block) {
@@ -26,8 +32,8 @@ Eigen::MatrixXd gram_of(const SeparableBlock& block) {
   const Eigen::Index own = block.columns.cols();
   Eigen::MatrixXd gram(shared + own, shared + own);
   gram.topLeftCorner(shared, shared) = block.shared->gram();
-  gram.bottomLeftCorner(own, shared) = block.columns.transpose() * block.shared->columns;
-  gram.topRightCorner(shared, own) = gram.bottomLeftCorner(own, shared).transpose();
+  gram.topRightCorner(shared, own) = products(block.shared->columns, block.columns, false);
+  gram.bottomLeftCorner(own, shared) = gram.topRightCorner(shared, own).transpose();
   gram.bottomRightCorner(own, own) = gram_of(block.columns);
   return gram;
 }
@@ -134,17 +140,23 @@ class Projection {
     solver_.compute(scaled(normal, scale_));
   }
 
-  /// d - X (X^T X)^-1 X^T d over the free columns, block by block.
+  /// d - X (X^T X)^-1 X^T d over the free columns, block by block; an empty one is 0.
   void project(std::vector<Eigen::VectorXd>& change) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(point_.fit.b.size());
     for (std::size_t k = 0; k < change.size(); ++k) {
+      if (change[k].size() == 0) continue;
       const SeparableBlock& block = point_.blocks[k];
       right(block.index) += transposed_times(block, change[k]);
     }
     Eigen::VectorXd b = Eigen::VectorXd::Zero(right.size());
     b(free_) = scale_.cwiseProduct(solver_.solve(scale_.cwiseProduct(right(free_))));
     for (std::size_t k = 0; k < change.size(); ++k) {
-      change[k] -= times(point_.blocks[k], b(point_.blocks[k].index));
+      Eigen::VectorXd taken = times(point_.blocks[k], b(point_.blocks[k].index));
+      if (change[k].size() == 0) {
+        change[k] = -taken;
+      } else {
+        change[k] -= taken;
+      }
     }
   }
 
@@ -154,6 +166,19 @@ class Projection {
   Eigen::VectorXd scale_;
   Eigen::LDLT<Eigen::MatrixXd> solver_;
 };
+
+std::vector<Eigen::VectorXd> changes_of(const SeparableProblem& problem, const SeparableFit& fit,
+                                        std::size_t i, double step) {
+  if (problem.changes) return problem.changes(fit, i, step);
+  std::vector<double> q = fit.q;
+  q[i] += step;
+  std::vector<Eigen::VectorXd> changes;
+  for (const SeparableBlock& block : problem.assemble(q)) {
+    const std::size_t k = changes.size();
+    changes.push_back(residual_of(block, fit.b(block.index)) - fit.residual[k]);
+  }
+  return changes;
+}
 
 // The Jacobian of the projected residual after Kaufman (1975): the change of the residual at fixed
 // b by one-sided differences that stay within the bounds, less what b takes of it. Its gradient is
@@ -171,12 +196,8 @@ Eigen::MatrixXd jacobian(const SeparableProblem& problem, const Point& point, in
       result.col(static_cast<Eigen::Index>(i)).setZero();
       continue;
     }
-    std::vector<double> q = fit.q;
-    q[i] += step;
-    auto change = residuals_at(problem, q, fit.b);
-    for (std::size_t k = 0; k < change.size(); ++k) {
-      change[k] = (change[k] - fit.residual[k]) / step;
-    }
+    auto change = changes_of(problem, fit, i, step);
+    for (Eigen::VectorXd& part : change) part /= step;
     projection.project(change);
     result.col(static_cast<Eigen::Index>(i)) = stacked(change);
     ++evaluations;
@@ -263,16 +284,6 @@ double difference_step(const ShapeBound& bound, double q) {
 
 Eigen::VectorXd residual_of(const SeparableBlock& block, const Eigen::VectorXd& b) {
   return block.target - times(block, b);
-}
-
-std::vector<Eigen::VectorXd> residuals_at(const SeparableProblem& problem,
-                                          std::span<const double> q, const Eigen::VectorXd& b) {
-  if (problem.residuals) return problem.residuals(q, b);
-  std::vector<Eigen::VectorXd> residuals;
-  for (const SeparableBlock& block : problem.assemble(q)) {
-    residuals.push_back(residual_of(block, b(block.index)));
-  }
-  return residuals;
 }
 
 SharedColumns::SharedColumns(Eigen::MatrixXd weighted) : columns(std::move(weighted)) {}

@@ -119,8 +119,8 @@ Result<ModelFit> fit_model(const Frame& frame, const PerEquation& weight,
   problem.lower = model.lower();
   problem.shapes = model.shapes();
   problem.assemble = [&](std::span<const double> q) { return model.assemble(q); };
-  problem.residuals = [&](std::span<const double> q, const Eigen::VectorXd& b) {
-    return model.residuals(q, b);
+  problem.changes = [&](const estimators::SeparableFit& fit, std::size_t shape, double step) {
+    return model.changes(fit, shape, step);
   };
   const auto solved = estimators::fit_separable(problem, effort.most_steps, effort.smallest_gain);
   if (!solved) return tl::unexpected(solved.error());

@@ -8,6 +8,7 @@ namespace {
 using Eigen::ArrayXd;
 
 constexpr std::size_t kMostBuilt = 12;  // of a fit: a few causes, before and after a difference
+constexpr std::size_t kMostSeen = 2;    // before and after a difference
 
 bool acts_on(const ActiveCause& cause, Equation equation) {
   return std::ranges::count(cause.form->at, equation) > 0;
@@ -37,49 +38,61 @@ std::span<const double> baseline_shape(const DriveModel& model, Equation equatio
   return {};
 }
 
-const Frame& ModelColumns::seen(const DriveModel& model) {
+ModelColumns::Seen& ModelColumns::seen_by(const DriveModel& model) {
   auto changes = changes_of(model);
-  if (changes.empty()) return frame_;
-  if (changed_ && changes == changed_by_) return *changed_;
-  built_.clear();
-  changed_ = frame_;
-  for (const ActiveCause& cause : model.causes) {
-    if (cause.form->transform != nullptr) cause.form->transform(*changed_, cause.shape);
+  const auto found = std::ranges::find(seen_, changes, &Seen::changed_by);
+  if (found != seen_.end()) {
+    seen_.splice(seen_.begin(), seen_, found);
+    return seen_.front();
   }
-  changed_->weigh_load();
-  changed_->measure_torsion();
-  changed_by_ = std::move(changes);
-  return *changed_;
+  if (seen_.size() == kMostSeen) seen_.pop_back();
+  Seen& made = seen_.emplace_front();
+  made.changed_by = std::move(changes);
+  if (made.changed_by.empty()) return made;
+  Frame& changed = made.changed.emplace(frame_);
+  for (const ActiveCause& cause : model.causes) {
+    if (cause.form->transform != nullptr) cause.form->transform(changed, cause.shape);
+  }
+  changed.weigh_load();
+  changed.measure_torsion();
+  return made;
 }
 
-std::shared_ptr<const Columns> ModelColumns::columns_of(const Frame& seen, const ActiveCause& cause,
+const Frame& ModelColumns::seen(const DriveModel& model) { return frame_of(seen_by(model)); }
+
+std::shared_ptr<const Columns> ModelColumns::columns_of(Seen& seen, const ActiveCause& cause,
                                                         Equation equation) {
-  const auto found = std::ranges::find_if(built_, [&](const Built& b) {
+  static const auto none = std::make_shared<const Columns>();
+  if (cause.form->columns == nullptr || !acts_on(cause, equation)) return none;
+  auto& built = seen.built;
+  const auto found = std::ranges::find_if(built, [&](const Built& b) {
     return b.form == cause.form && b.equation == equation && b.shape == cause.shape;
   });
-  if (found != built_.end()) {
-    built_.splice(built_.begin(), built_, found);
-    return built_.front().columns;
+  if (found != built.end()) {
+    built.splice(built.begin(), built, found);
+    return built.front().columns;
   }
-  if (built_.size() == kMostBuilt) built_.pop_back();
-  Columns columns = cause.form->columns(equation, seen, reference_, cause.shape);
-  if (seen.torque_lag > 0.0) {
-    for (ArrayXd& column : columns) column = seen.recorded(column);
+  if (built.size() == kMostBuilt) built.pop_back();
+  const Frame& frame = frame_of(seen);
+  Columns columns = cause.form->columns(equation, frame, reference_, cause.shape);
+  if (frame.torque_lag > 0.0) {
+    for (ArrayXd& column : columns) column = frame.recorded(column);
   }
-  built_.push_front(
+  built.push_front(
       {cause.form, equation, cause.shape, std::make_shared<const Columns>(std::move(columns))});
-  return built_.front().columns;
+  return built.front().columns;
+}
+
+std::shared_ptr<const Columns> ModelColumns::of_cause(const DriveModel& model, std::size_t cause,
+                                                      Equation equation) {
+  return columns_of(seen_by(model), model.causes[cause], equation);
 }
 
 std::vector<std::shared_ptr<const Columns>> ModelColumns::causes_at(const DriveModel& model,
                                                                     Equation equation) {
-  static const auto none = std::make_shared<const Columns>();
-  const Frame& frame = seen(model);
+  Seen& seen = seen_by(model);
   std::vector<std::shared_ptr<const Columns>> list;
-  for (const ActiveCause& cause : model.causes) {
-    const bool adds = cause.form->columns != nullptr && acts_on(cause, equation);
-    list.push_back(adds ? columns_of(frame, cause, equation) : none);
-  }
+  for (const ActiveCause& cause : model.causes) list.push_back(columns_of(seen, cause, equation));
   return list;
 }
 

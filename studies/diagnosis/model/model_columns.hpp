@@ -23,11 +23,15 @@ class ModelColumns {
   ModelColumns(const Frame& frame, const Reference& reference)
       : frame_(frame), reference_(reference) {}
 
-  /// The frame as the causes of the model that change it leave it; valid until the next call.
+  /// The frame as the causes of the model that change it leave it; valid until the next call with
+  /// others.
   const Frame& seen(const DriveModel& model);
   EquationColumns at(const DriveModel& model, Equation equation);
   /// Of each cause alone.
   std::vector<std::shared_ptr<const Columns>> causes_at(const DriveModel& model, Equation equation);
+  /// Of one of them.
+  std::shared_ptr<const Columns> of_cause(const DriveModel& model, std::size_t cause,
+                                          Equation equation);
 
  private:
   struct Built {
@@ -36,14 +40,20 @@ class ModelColumns {
     std::vector<double> shape;
     std::shared_ptr<const Columns> columns;
   };
-  std::shared_ptr<const Columns> columns_of(const Frame& seen, const ActiveCause& cause,
+  /// A frame as causes of these shapes leave it, and what was built on it, the latest first.
+  struct Seen {
+    std::vector<std::vector<double>> changed_by;
+    std::optional<Frame> changed;
+    std::list<Built> built;
+  };
+  Seen& seen_by(const DriveModel& model);
+  const Frame& frame_of(const Seen& seen) const { return seen.changed ? *seen.changed : frame_; }
+  std::shared_ptr<const Columns> columns_of(Seen& seen, const ActiveCause& cause,
                                             Equation equation);
 
   const Frame& frame_;
   const Reference& reference_;
-  std::optional<Frame> changed_;
-  std::vector<std::vector<double>> changed_by_;  ///< shapes of the causes that changed it
-  std::list<Built> built_;                       ///< on the frame seen last; the latest first
+  std::list<Seen> seen_;  ///< the latest first
 };
 
 /// Adds to a sum, so many times, what causes add to an equation with their coefficients.

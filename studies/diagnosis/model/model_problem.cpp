@@ -65,6 +65,7 @@ void ModelProblem::lay_out_shapes() {
   for (std::size_t c = 0; c < start_.causes.size(); ++c) {
     for (std::size_t s = 0; s < cause_shapes_[c].size(); ++s) {
       shapes_.push_back(bound_of(cause_shapes_[c][s], start_.causes[c].shape[s]));
+      cause_of_.push_back(c);
     }
   }
 }
@@ -148,11 +149,62 @@ Eigen::VectorXd ModelProblem::residual_of(const DriveModel& model, std::size_t e
 
 std::vector<Eigen::VectorXd> ModelProblem::residuals(std::span<const double> q,
                                                      const Eigen::VectorXd& b) const {
-  DriveModel model = at(q);
-  put_coefficients(b, model);
+  const DriveModel model = fitted(q, b);
   std::vector<Eigen::VectorXd> list;
   for (std::size_t e = 0; e < equations_.size(); ++e) list.push_back(residual_of(model, e));
   return list;
+}
+
+DriveModel ModelProblem::fitted(std::span<const double> q, const Eigen::VectorXd& b) const {
+  DriveModel model = at(q);
+  put_coefficients(b, model);
+  return model;
+}
+
+std::vector<Eigen::VectorXd> ModelProblem::changes(const estimators::SeparableFit& fit,
+                                                   std::size_t shape, double step) const {
+  std::vector<double> q = fit.q;
+  q[shape] += step;
+  const std::size_t own = shapes_.size() - cause_of_.size();
+  if (shape >= own && start_.causes[cause_of_[shape - own]].form->transform != nullptr) {
+    auto changes = residuals(q, fit.b);
+    for (std::size_t e = 0; e < changes.size(); ++e) changes[e] -= fit.residual[e];
+    return changes;
+  }
+  std::vector<Eigen::VectorXd> changes(equations_.size());
+  const DriveModel from = fitted(fit.q, fit.b);
+  const DriveModel to = fitted(q, fit.b);
+  if (shape < own) {
+    change_baseline(from, to, changes);
+  } else {
+    change_cause(from, to, cause_of_[shape - own], changes);
+  }
+  return changes;
+}
+
+void ModelProblem::change_baseline(const DriveModel& from, const DriveModel& to,
+                                   std::vector<Eigen::VectorXd>& changes) const {
+  const auto e = static_cast<std::size_t>(std::ranges::find(equations_, Equation::torsion) -
+                                          equations_.begin());
+  const Frame& seen = columns_.seen(from);
+  const Eigen::VectorXd& b = from.own[index_of(Equation::torsion)];
+  changes[e] =
+      weighted_baseline(seen, Equation::torsion, from.torsion_shape, rows_[e])->columns->columns *
+          b -
+      weighted_sum(seen, Equation::torsion, to.torsion_shape, rows_[e], b);
+}
+
+void ModelProblem::change_cause(const DriveModel& from, const DriveModel& to, std::size_t cause,
+                                std::vector<Eigen::VectorXd>& changes) const {
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
+    const auto before = columns_.of_cause(from, cause, equations_[e]);
+    if (before->empty()) continue;
+    const auto after = columns_.of_cause(to, cause, equations_[e]);
+    ArrayXd change = ArrayXd::Zero(frame_.rows());
+    add_causes({before}, {from.coefficients[cause]}, 1.0, change);
+    add_causes({after}, {from.coefficients[cause]}, -1.0, change);
+    changes[e] = rows_[e].of(change);
+  }
 }
 
 Eigen::VectorXd ModelProblem::coefficients_of(const DriveModel& model) const {

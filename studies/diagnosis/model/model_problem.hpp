@@ -31,6 +31,10 @@ class ModelProblem {
   std::vector<estimators::SeparableBlock> assemble(std::span<const double> q) const;
   /// What assemble() leaves of the target with linear parameters b, by equation.
   std::vector<Eigen::VectorXd> residuals(std::span<const double> q, const Eigen::VectorXd& b) const;
+  /// By how much a step of a shape changes the residual of a fit, by equation; empty of one that it
+  /// does not act on.
+  std::vector<Eigen::VectorXd> changes(const estimators::SeparableFit& fit, std::size_t shape,
+                                       double step) const;
   /// The model with these shapes.
   DriveModel at(std::span<const double> q) const;
   /// b of a model; 0 of what it does not have.
@@ -49,6 +53,11 @@ class ModelProblem {
   void lay_out_linear();
   estimators::SeparableBlock block_of(const DriveModel& model, std::size_t e) const;
   Eigen::VectorXd residual_of(const DriveModel& model, std::size_t e) const;
+  DriveModel fitted(std::span<const double> q, const Eigen::VectorXd& b) const;
+  void change_baseline(const DriveModel& from, const DriveModel& to,
+                       std::vector<Eigen::VectorXd>& changes) const;
+  void change_cause(const DriveModel& from, const DriveModel& to, std::size_t cause,
+                    std::vector<Eigen::VectorXd>& changes) const;
 
   ModelColumns& columns_;
   const Frame& frame_;
@@ -57,6 +66,7 @@ class ModelProblem {
   std::vector<WeightedRows> rows_;
   std::vector<std::vector<Shape>> cause_shapes_;
   std::vector<estimators::ShapeBound> shapes_;
+  std::vector<std::size_t> cause_of_;  ///< by shape, behind those of the baseline
   std::vector<Place> own_, causes_;
   Eigen::VectorXd lower_;
 };

@@ -57,27 +57,27 @@ Linearised::Linearised(const Frame& frame, const Findings& findings,
 }
 
 void Linearised::take(const ModelProblem& model, const VectorXd& b) {
-  const auto q = estimators::starts_of(model.shapes());
+  estimators::SeparableFit fit;
+  fit.q = estimators::starts_of(model.shapes());
+  fit.b = b;
   std::vector<Wide> wide;
-  for (const SeparableBlock& block : model.assemble(q)) {
+  for (const SeparableBlock& block : model.assemble(fit.q)) {
     const Equation equation = equations_[blocks_.size()];
     WeightedRows rows(findings_.fit_weight[index_of(equation)], prior_rows(frame_, equation));
-    blocks_.push_back({std::move(rows), nullptr, residual_at(block, b), {}});
+    fit.residual.push_back(residual_at(block, b));
+    blocks_.push_back({std::move(rows), nullptr, fit.residual.back(), {}});
     wide.emplace_back(block);
   }
-  lower_.resize(b.size() + static_cast<Index>(q.size()));
+  lower_.resize(b.size() + static_cast<Index>(fit.q.size()));
   lower_.head(b.size()) = model.lower() - b;
-  for (std::size_t i = 0; i < q.size(); ++i) {
+  for (std::size_t i = 0; i < fit.q.size(); ++i) {
     const Index at = b.size() + static_cast<Index>(i);
-    lower_[at] = model.shapes()[i].lower - q[i];
-    const double step = estimators::difference_step(model.shapes()[i], q[i]);
+    lower_[at] = model.shapes()[i].lower - fit.q[i];
+    const double step = estimators::difference_step(model.shapes()[i], fit.q[i]);
     if (step == 0.0) continue;
-    auto moved_to = q;
-    moved_to[i] += step;
-    const auto moved = model.residuals(moved_to, b);
-    for (std::size_t e = 0; e < moved.size(); ++e) {
-      const VectorXd change = (blocks_[e].residual - moved[e]) / step;
-      if (change.squaredNorm() > 0.0) wide[e].add(change, at);
+    const auto changes = model.changes(fit, i, step);
+    for (std::size_t e = 0; e < changes.size(); ++e) {
+      if (changes[e].squaredNorm() > 0.0) wide[e].add(changes[e] / -step, at);
     }
   }
   for (std::size_t e = 0; e < wide.size(); ++e) {

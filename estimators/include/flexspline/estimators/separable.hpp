@@ -52,27 +52,24 @@ std::vector<double> starts_of(const std::vector<ShapeBound>& shapes);
 /// is held.
 double difference_step(const ShapeBound& bound, double q);
 
-/// min over q in its bounds and b >= lower of sum_blocks ||y(q) - X(q) b||^2 (Golub and Pereyra
-/// 1973, with bounds on b). Blocks may come and go with q, b may not.
-struct SeparableProblem {
-  std::function<std::vector<SeparableBlock>(std::span<const double> q)> assemble;
-  Eigen::VectorXd lower;  ///< of b; -infinity: free
-  std::vector<ShapeBound> shapes;
-  /// y(q) - X(q) b by block, where that is cheaper than X(q); empty: by assemble.
-  std::function<std::vector<Eigen::VectorXd>(std::span<const double> q, const Eigen::VectorXd& b)>
-      residuals = nullptr;
-};
-
-/// y(q) - X(q) b by block.
-std::vector<Eigen::VectorXd> residuals_at(const SeparableProblem& problem,
-                                          std::span<const double> q, const Eigen::VectorXd& b);
-
 struct SeparableFit {
   std::vector<double> q;
   Eigen::VectorXd b;
   std::vector<Eigen::VectorXd> residual;  ///< by block, weighted: target - columns b
   double sum_of_squares = 0.0;
   int evaluations = 0;
+};
+
+/// min over q in its bounds and b >= lower of sum_blocks ||y(q) - X(q) b||^2 (Golub and Pereyra
+/// 1973, with bounds on b). Blocks may come and go with q, b may not.
+struct SeparableProblem {
+  std::function<std::vector<SeparableBlock>(std::span<const double> q)> assemble;
+  Eigen::VectorXd lower;  ///< of b; -infinity: free
+  std::vector<ShapeBound> shapes;
+  /// By how much a step of shape i changes the residual of a fit at its b, by block, where that is
+  /// cheaper than X; empty of a block that stays. Not given: by assemble.
+  std::function<std::vector<Eigen::VectorXd>(const SeparableFit& fit, std::size_t i, double step)>
+      changes = nullptr;
 };
 
 /// b alone, at shapes given.
