@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flexspline/core/in_parallel.hpp"
 #include "flexspline/core/rig_residuals.hpp"
 
 namespace flexspline::data {
@@ -165,9 +166,9 @@ double median_of(std::vector<double> values) {
 
 ObservedSet observe(const RecordingSet& set) {
   ObservedSet all{set, {}};
-  for (const Recording& recording : set.recordings) {
-    all.recordings.push_back(observed(all, recording));
-  }
+  std::vector<Observed> each(set.recordings.size());
+  in_parallel(each.size(), 0, [&](std::size_t i) { each[i] = observed(all, set.recordings[i]); });
+  all.recordings = std::move(each);
   return all;
 }
 

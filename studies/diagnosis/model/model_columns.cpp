@@ -45,16 +45,25 @@ ModelColumns::Seen& ModelColumns::seen_by(const DriveModel& model) {
     seen_.splice(seen_.begin(), seen_, found);
     return seen_.front();
   }
-  if (seen_.size() == kMostSeen) seen_.pop_back();
-  Seen& made = seen_.emplace_front();
-  made.changed_by = std::move(changes);
-  if (made.changed_by.empty()) return made;
-  Frame& changed = made.changed.emplace(frame_);
-  for (const ActiveCause& cause : model.causes) {
-    if (cause.form->transform != nullptr) cause.form->transform(changed, cause.shape);
+  // A frame is written over in less time than it takes to make another.
+  if (seen_.size() == kMostSeen) {
+    seen_.splice(seen_.begin(), seen_, std::prev(seen_.end()));
+  } else {
+    seen_.emplace_front();
   }
-  changed.weigh_load();
-  changed.measure_torsion();
+  Seen& made = seen_.front();
+  made.built.clear();
+  made.changed_by = std::move(changes);
+  if (made.changed_by.empty()) {
+    made.changed.reset();
+    return made;
+  }
+  made.changed = frame_;
+  for (const ActiveCause& cause : model.causes) {
+    if (cause.form->transform != nullptr) cause.form->transform(*made.changed, cause.shape);
+  }
+  made.changed->weigh_load();
+  made.changed->measure_torsion();
   return made;
 }
 

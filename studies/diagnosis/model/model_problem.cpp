@@ -165,14 +165,15 @@ std::vector<Eigen::VectorXd> ModelProblem::changes(const estimators::SeparableFi
                                                    std::size_t shape, double step) const {
   std::vector<double> q = fit.q;
   q[shape] += step;
+  const DriveModel from = fitted(fit.q, fit.b);
   const std::size_t own = shapes_.size() - cause_of_.size();
   if (shape >= own && start_.causes[cause_of_[shape - own]].form->transform != nullptr) {
     auto changes = residuals(q, fit.b);
     for (std::size_t e = 0; e < changes.size(); ++e) changes[e] -= fit.residual[e];
+    (void)columns_.seen(from);  // the next to be written over is the frame of this step
     return changes;
   }
   std::vector<Eigen::VectorXd> changes(equations_.size());
-  const DriveModel from = fitted(fit.q, fit.b);
   const DriveModel to = fitted(q, fit.b);
   if (shape < own) {
     change_baseline(from, to, changes);

@@ -31,7 +31,7 @@ Result<void> leave_out_unproved(const Frame& frame, Selection& selection) {
 // The model of another selection, or of a first one, on this frame.
 Result<Findings> first_model(const Frame& frame, const Limits& limits, const Progress& progress,
                              const Selection* from) {
-  if (from == nullptr) return select_causes(frame, limits, progress).map(&Selection::final);
+  if (from == nullptr) return nearest_model(frame, limits, progress);
   Findings model = from->final;
   return refresh(frame, model, kRefreshSteps).map([&] { return std::move(model); });
 }

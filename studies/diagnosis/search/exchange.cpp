@@ -11,6 +11,11 @@ bool is_in(const DriveModel& model, const CauseRow* row) {
   return std::ranges::count(model.causes, row, &ActiveCause::row) > 0;
 }
 
+bool is_contested(const Selection& s, std::size_t cause) {
+  const Accepted& a = s.accepted[cause];
+  return !a.rivals.empty() && !a.trial.cause.row->of_baseline();
+}
+
 /// A cause and its alternatives, each tried on the model without it: the cause first.
 Result<std::vector<Trial>> contest(const Frame& frame, const Limits& limits, const Selection& s,
                                    std::size_t cause) {
@@ -38,22 +43,32 @@ void put_in_place(Selection& s, std::size_t cause, std::vector<Trial> trials, st
   std::ranges::move(field, std::back_inserter(s.accepted.back().field));
 }
 
+/// The contests of the first `count` causes, those of one model side by side.
+std::vector<Result<std::vector<Trial>>> contests(const Frame& frame, const Limits& limits,
+                                                 const Selection& s, std::size_t count) {
+  std::vector<Result<std::vector<Trial>>> all(count);
+  in_parallel(count, threads_for(limits.threads), [&](std::size_t i) {
+    if (is_contested(s, i)) all[i] = contest(frame, limits, s, i);
+  });
+  return all;
+}
+
 }  // namespace
 
 Result<void> exchange_for_better(const Frame& frame, const Limits& limits, Selection& s) {
   if (s.accepted.size() < 2) return {};
   // The last has been compared beside all others.
-  for (std::size_t i = s.accepted.size() - 1; i-- > 0;) {
-    const Accepted& a = s.accepted[i];
-    if (a.rivals.empty() || a.trial.cause.row->of_baseline()) continue;
-    auto trials = contest(frame, limits, s, i);
-    if (!trials) return tl::unexpected(trials.error());
-    const auto best = std::ranges::max_element(*trials, {}, &Trial::net_gain);
-    if (best == trials->begin() || !(best->gain > 0.0)) continue;
-    const auto at = static_cast<std::size_t>(best - trials->begin());
-    put_in_place(s, i, std::move(*trials), at, limits);
+  auto all = contests(frame, limits, s, s.accepted.size() - 1);
+  for (std::size_t i = all.size(); i-- > 0;) {
+    if (!all[i]) return tl::unexpected(all[i].error());
+    auto& trials = *all[i];
+    const auto best = std::ranges::max_element(trials, {}, &Trial::net_gain);
+    if (best == trials.end() || best == trials.begin() || !(best->gain > 0.0)) continue;
+    const auto at = static_cast<std::size_t>(best - trials.begin());
+    put_in_place(s, i, std::move(trials), at, limits);
     const auto again = refresh(frame, s.final, kRefreshSteps);
     if (!again) return again;
+    all = contests(frame, limits, s, i);
   }
   return {};
 }

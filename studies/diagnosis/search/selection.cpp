@@ -134,6 +134,16 @@ void judge_small_again(const Frame& frame, const Limits& limits, Selection& s) {
   }
 }
 
+Result<Findings> nearest_model(const Frame& frame, const Limits& limits,
+                               const std::function<void(double, std::string_view)>& progress) {
+  auto baseline = fit_baseline(frame);
+  if (!baseline) return baseline;
+  Selection s;
+  s.baseline = *baseline;
+  s.final = std::move(*baseline);
+  return search(frame, limits, s, progress).map([&] { return std::move(s.final); });
+}
+
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
                                 const std::function<void(double, std::string_view)>& progress,
                                 const Selection* from) {

@@ -74,6 +74,10 @@ bool is_taken_up(const Trial& trial, const Limits& limits);
 /// limits.interest of the largest torque and is worth limits.named_gain beside what came after it.
 void judge_small_again(const Frame& frame, const Limits& limits, Selection& selection);
 
+/// The fit with causes added while they gain; none is taken out again.
+Result<Findings> nearest_model(const Frame& frame, const Limits& limits,
+                               const std::function<void(double, std::string_view)>& progress);
+
 /// Forward selection: the best cause, then all shapes again, then the next; then each cause taken
 /// out again. Where another selection of nearly the same frame is given, it goes on from its
 /// causes, and what was redundant there is not tried again. Neither settled nor located:
