@@ -63,13 +63,15 @@ void put_immaterial_first(Selection& s) {
   s.accepted = std::move(material);
 }
 
+// Until nothing gains, or what does takes less than a share of the misfit that is left.
 Result<void> search(const Frame& frame, const Limits& limits, Selection& s,
-                    const std::function<void(double, std::string_view)>& progress) {
+                    const std::function<void(double, std::string_view)>& progress,
+                    double least_share) {
   for (int round = 0; round < limits.rounds; ++round) {
     if (progress) progress(0.2 + 0.07 * round, fmt::format("trying causes, round {}", round + 1));
     auto trials = try_causes(frame, s.final, limits.threads);
     const std::size_t best = chosen(trials, s, limits);
-    if (best == trials.size()) {
+    if (best == trials.size() || trials[best].removed < least_share) {
       s.last_field = std::move(trials);
       return {};
     }
@@ -141,7 +143,7 @@ Result<Findings> nearest_model(const Frame& frame, const Limits& limits,
   Selection s;
   s.baseline = *baseline;
   s.final = std::move(*baseline);
-  return search(frame, limits, s, progress).map([&] { return std::move(s.final); });
+  return search(frame, limits, s, progress, limits.tenth).map([&] { return std::move(s.final); });
 }
 
 Result<Selection> select_causes(const Frame& frame, const Limits& limits,
@@ -156,7 +158,7 @@ Result<Selection> select_causes(const Frame& frame, const Limits& limits,
     const auto taken = take_causes(frame, *from, s);
     if (!taken) return tl::unexpected(taken.error());
   }
-  const auto found = search(frame, limits, s, progress);
+  const auto found = search(frame, limits, s, progress, 0.0);
   if (!found) return tl::unexpected(found.error());
   const auto exchanged = exchange_for_better(frame, limits, s);
   if (!exchanged) return tl::unexpected(exchanged.error());
