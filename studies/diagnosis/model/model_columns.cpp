@@ -38,7 +38,7 @@ std::span<const double> baseline_shape(const DriveModel& model, Equation equatio
   return {};
 }
 
-ModelColumns::Seen& ModelColumns::seen_by(const DriveModel& model) {
+const ModelColumns::Seen& ModelColumns::seen_by(const DriveModel& model) {
   auto changes = changes_of(model);
   const auto found = std::ranges::find(seen_, changes, &Seen::changed_by);
   if (found != seen_.end()) {
@@ -52,7 +52,7 @@ ModelColumns::Seen& ModelColumns::seen_by(const DriveModel& model) {
     seen_.emplace_front();
   }
   Seen& made = seen_.front();
-  made.built.clear();
+  std::erase_if(built_, [&](const Built& b) { return b.on == &made; });
   made.changed_by = std::move(changes);
   if (made.changed_by.empty()) {
     made.changed.reset();
@@ -69,27 +69,27 @@ ModelColumns::Seen& ModelColumns::seen_by(const DriveModel& model) {
 
 const Frame& ModelColumns::seen(const DriveModel& model) { return frame_of(seen_by(model)); }
 
-std::shared_ptr<const Columns> ModelColumns::columns_of(Seen& seen, const ActiveCause& cause,
+std::shared_ptr<const Columns> ModelColumns::columns_of(const Seen& seen, const ActiveCause& cause,
                                                         Equation equation) {
   static const auto none = std::make_shared<const Columns>();
   if (cause.form->columns == nullptr || !acts_on(cause, equation)) return none;
-  auto& built = seen.built;
-  const auto found = std::ranges::find_if(built, [&](const Built& b) {
-    return b.form == cause.form && b.equation == equation && b.shape == cause.shape;
+  const auto found = std::ranges::find_if(built_, [&](const Built& b) {
+    return b.on == &seen && b.form == cause.form && b.equation == equation &&
+           b.shape == cause.shape;
   });
-  if (found != built.end()) {
-    built.splice(built.begin(), built, found);
-    return built.front().columns;
+  if (found != built_.end()) {
+    built_.splice(built_.begin(), built_, found);
+    return built_.front().columns;
   }
-  if (built.size() == kMostBuilt) built.pop_back();
+  if (built_.size() == kMostBuilt) built_.pop_back();
   const Frame& frame = frame_of(seen);
   Columns columns = cause.form->columns(equation, frame, reference_, cause.shape);
   if (frame.torque_lag > 0.0) {
     for (ArrayXd& column : columns) column = frame.recorded(column);
   }
-  built.push_front(
-      {cause.form, equation, cause.shape, std::make_shared<const Columns>(std::move(columns))});
-  return built.front().columns;
+  built_.push_front({&seen, cause.form, equation, cause.shape,
+                     std::make_shared<const Columns>(std::move(columns))});
+  return built_.front().columns;
 }
 
 std::shared_ptr<const Columns> ModelColumns::of_cause(const DriveModel& model, std::size_t cause,
@@ -99,7 +99,7 @@ std::shared_ptr<const Columns> ModelColumns::of_cause(const DriveModel& model, s
 
 std::vector<std::shared_ptr<const Columns>> ModelColumns::causes_at(const DriveModel& model,
                                                                     Equation equation) {
-  Seen& seen = seen_by(model);
+  const Seen& seen = seen_by(model);
   std::vector<std::shared_ptr<const Columns>> list;
   for (const ActiveCause& cause : model.causes) list.push_back(columns_of(seen, cause, equation));
   return list;

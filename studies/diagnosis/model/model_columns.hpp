@@ -34,26 +34,27 @@ class ModelColumns {
                                           Equation equation);
 
  private:
+  /// A frame as causes of these shapes leave it.
+  struct Seen {
+    std::vector<std::vector<double>> changed_by;
+    std::optional<Frame> changed;
+  };
   struct Built {
+    const Seen* on;
     const CauseForm* form;
     Equation equation;
     std::vector<double> shape;
     std::shared_ptr<const Columns> columns;
   };
-  /// A frame as causes of these shapes leave it, and what was built on it, the latest first.
-  struct Seen {
-    std::vector<std::vector<double>> changed_by;
-    std::optional<Frame> changed;
-    std::list<Built> built;
-  };
-  Seen& seen_by(const DriveModel& model);
+  const Seen& seen_by(const DriveModel& model);
   const Frame& frame_of(const Seen& seen) const { return seen.changed ? *seen.changed : frame_; }
-  std::shared_ptr<const Columns> columns_of(Seen& seen, const ActiveCause& cause,
+  std::shared_ptr<const Columns> columns_of(const Seen& seen, const ActiveCause& cause,
                                             Equation equation);
 
   const Frame& frame_;
   const Reference& reference_;
-  std::list<Seen> seen_;  ///< the latest first
+  std::list<Seen> seen_;  ///< the latest first, as in the next
+  std::list<Built> built_;
 };
 
 /// Adds to a sum, so many times, what causes add to an equation with their coefficients.

@@ -43,12 +43,21 @@ void put_in_place(Selection& s, std::size_t cause, std::vector<Trial> trials, st
   std::ranges::move(field, std::back_inserter(s.accepted.back().field));
 }
 
-/// The contests of the first `count` causes, those of one model side by side.
+/// Where the best of a contest stands; 0: the cause itself.
+std::size_t winner(const std::vector<Trial>& trials) {
+  const auto best = std::ranges::max_element(trials, {}, &Trial::net_gain);
+  return best != trials.end() && best->gain > 0.0 ? static_cast<std::size_t>(best - trials.begin())
+                                                  : 0;
+}
+
+/// The contests of the first `count` causes, side by side; nothing of one that its cause wins.
 std::vector<Result<std::vector<Trial>>> contests(const Frame& frame, const Limits& limits,
                                                  const Selection& s, std::size_t count) {
   std::vector<Result<std::vector<Trial>>> all(count);
   in_parallel(count, threads_for(limits.threads), [&](std::size_t i) {
-    if (is_contested(s, i)) all[i] = contest(frame, limits, s, i);
+    if (!is_contested(s, i)) return;
+    auto trials = contest(frame, limits, s, i);
+    if (!trials || winner(*trials) > 0) all[i] = std::move(trials);
   });
   return all;
 }
@@ -61,11 +70,9 @@ Result<void> exchange_for_better(const Frame& frame, const Limits& limits, Selec
   auto all = contests(frame, limits, s, s.accepted.size() - 1);
   for (std::size_t i = all.size(); i-- > 0;) {
     if (!all[i]) return tl::unexpected(all[i].error());
-    auto& trials = *all[i];
-    const auto best = std::ranges::max_element(trials, {}, &Trial::net_gain);
-    if (best == trials.end() || best == trials.begin() || !(best->gain > 0.0)) continue;
-    const auto at = static_cast<std::size_t>(best - trials.begin());
-    put_in_place(s, i, std::move(trials), at, limits);
+    const std::size_t best = winner(*all[i]);
+    if (best == 0) continue;
+    put_in_place(s, i, *std::move(all[i]), best, limits);
     const auto again = refresh(frame, s.final, kRefreshSteps);
     if (!again) return again;
     all = contests(frame, limits, s, i);
