@@ -48,12 +48,18 @@ Result<Selection> aligned(Frame& frame, const Limits& limits, const Progress& pr
   return select_causes(frame, limits, progress);
 }
 
+std::optional<Incident> next_incident(const Frame& frame, const Selection& selection,
+                                      const Limits& limits) {
+  if (frame.incidents.size() >= limits.incidents) return std::nullopt;
+  return find_incident(frame, selection.final, limits);
+}
+
 // Again without a stretch of one recording that has something of its own, until none has.
 Result<Selection> beside_incidents(Frame& frame, const Limits& limits, const Progress& progress,
                                    const Selection* from) {
   auto selection = aligned(frame, limits, progress, from);
-  while (selection && frame.incidents.size() < limits.incidents) {
-    const auto incident = find_incident(frame, selection->final, limits);
+  while (selection) {
+    const auto incident = next_incident(frame, *selection, limits);
     if (!incident) break;
     frame = without_incident(std::move(frame), *incident);
     selection = aligned(frame, limits, progress, nullptr);
@@ -73,21 +79,19 @@ Result<Finding> confirmed(Frame frame, const Limits& limits, const Progress& pro
   return Finding{std::move(frame), std::move(selection), std::move(*proof)};
 }
 
-// With a firm spring, where that leaves a gap.
+// With a firm spring, where that leaves a gap. One that is known without needs no stretch left out
+// to be wider: what a model cannot follow it does not predict as well.
 Result<std::optional<Finding>> with_gap(const Finding& free_f, const Limits& limits,
                                         const Progress& progress) {
+  const bool known = has_a_gap(free_f.selection);
   Frame frame = with_firm_spring(free_f.frame);
-  auto selection = beside_incidents(frame, limits, progress, &free_f.selection);
+  auto selection = known ? aligned(frame, limits, progress, &free_f.selection)
+                         : beside_incidents(frame, limits, progress, &free_f.selection);
   if (!selection) return tl::unexpected(selection.error());
+  if (known && next_incident(frame, *selection, limits)) return std::nullopt;
   if (!has_a_gap(*selection)) return std::nullopt;
   return confirmed(std::move(frame), limits, progress, std::move(*selection))
       .map([](Finding&& finding) { return std::optional(std::move(finding)); });
-}
-
-// A gap that is known without needs no stretch left out to be wider: what a model cannot follow it
-// does not predict as well.
-bool is_wider_by_leaving_out(const Finding& free_f, const Finding& firm) {
-  return has_a_gap(free_f.selection) && firm.frame.incidents.size() > free_f.frame.incidents.size();
 }
 
 std::string gap_in_words(const Finding& free_f, const Finding& gap) {
@@ -107,10 +111,7 @@ Result<Finding> found_in(Frame frame, const Limits& limits, const Progress& prog
   if (!free_f || !may_hide_a_gap(free_f->frame, free_f->selection, limits)) return free_f;
   auto gap = with_gap(*free_f, limits, progress);
   if (!gap) return tl::unexpected(gap.error());
-  if (!*gap || is_wider_by_leaving_out(*free_f, **gap) ||
-      !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof, limits)) {
-    return free_f;
-  }
+  if (!*gap || !tells_a_gap((*gap)->selection, free_f->proof, (*gap)->proof, limits)) return free_f;
   (*gap)->frame.notes.push_back(gap_in_words(*free_f, **gap));
   return std::move(**gap);
 }
