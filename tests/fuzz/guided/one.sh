@@ -26,6 +26,7 @@ if ((status == 0)); then
   exit 0
 fi
 grep -v '^#[0-9]' "$scratch/log" | tail -n 60
+grep -E 'ERROR: |runtime error: ' "$scratch/log" | head -n 5 || true
 case $status in
   124 | 137) echo "$name: it did not end within $((seconds + 120)) s" ;;
   *) echo "$name: a finding (status $status); the input is kept in $findings/$name-*" ;;
