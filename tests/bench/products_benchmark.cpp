@@ -7,55 +7,49 @@
 namespace flexspline::bench {
 namespace {
 
+using Eigen::MatrixXd;
+
 constexpr Eigen::Index kRows = 4000;
 
-Eigen::MatrixXd columns(benchmark::State& state, int of) {
-  return Eigen::MatrixXd::Random(kRows, state.range(of));
+/// `lower`: of a matrix with itself, what lies on and below the diagonal.
+using Multiply = void (*)(const MatrixXd& a, const MatrixXd& b, bool lower, MatrixXd& product);
+
+void by_kernel(const MatrixXd& a, const MatrixXd& b, bool lower, MatrixXd& product) {
+  static const ColumnProducts multiply = column_products(best_instruction_set());
+  multiply({a.data(), a.cols()}, {b.data(), b.cols()}, kRows, lower, product.data());
 }
 
-void gram(benchmark::State& state) {
-  const Eigen::MatrixXd a = columns(state, 0);
-  Eigen::MatrixXd product(a.cols(), a.cols());
-  const ColumnProducts multiply = column_products(best_instruction_set());
-  for (auto _ : state) {
-    multiply({a.data(), a.cols()}, {a.data(), a.cols()}, kRows, true, product.data());
-    benchmark::DoNotOptimize(product.data());
-  }
-}
-
-void gram_by_eigen(benchmark::State& state) {
-  const Eigen::MatrixXd a = columns(state, 0);
-  Eigen::MatrixXd product(a.cols(), a.cols());
-  for (auto _ : state) {
+void by_eigen(const MatrixXd& a, const MatrixXd& b, bool lower, MatrixXd& product) {
+  if (lower) {
     product.setZero();
     product.selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
-    benchmark::DoNotOptimize(product.data());
-  }
-}
-
-void beside(benchmark::State& state) {
-  const Eigen::MatrixXd a = columns(state, 0), b = columns(state, 1);
-  Eigen::MatrixXd product(a.cols(), b.cols());
-  const ColumnProducts multiply = column_products(best_instruction_set());
-  for (auto _ : state) {
-    multiply({a.data(), a.cols()}, {b.data(), b.cols()}, kRows, false, product.data());
-    benchmark::DoNotOptimize(product.data());
-  }
-}
-
-void beside_by_eigen(benchmark::State& state) {
-  const Eigen::MatrixXd a = columns(state, 0), b = columns(state, 1);
-  Eigen::MatrixXd product(a.cols(), b.cols());
-  for (auto _ : state) {
+  } else {
     product.noalias() = a.transpose() * b;
+  }
+}
+
+// range(1) columns beside range(0); 0: these with themselves.
+void products(benchmark::State& state, Multiply multiply) {
+  const bool lower = state.range(1) == 0;
+  const MatrixXd a = MatrixXd::Random(kRows, state.range(0));
+  const MatrixXd b = lower ? a : MatrixXd::Random(kRows, state.range(1));
+  MatrixXd product(a.cols(), b.cols());
+  for (auto _ : state) {
+    multiply(a, b, lower, product);
     benchmark::DoNotOptimize(product.data());
   }
 }
 
-BENCHMARK(gram)->Arg(30)->Arg(60)->Unit(benchmark::kMicrosecond);
-BENCHMARK(gram_by_eigen)->Arg(30)->Arg(60)->Unit(benchmark::kMicrosecond);
-BENCHMARK(beside)->Args({60, 3})->Unit(benchmark::kMicrosecond);
-BENCHMARK(beside_by_eigen)->Args({60, 3})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(products, by_kernel, by_kernel)
+    ->Args({30, 0})
+    ->Args({60, 0})
+    ->Args({60, 3})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(products, by_eigen, by_eigen)
+    ->Args({30, 0})
+    ->Args({60, 0})
+    ->Args({60, 3})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace flexspline::bench

@@ -74,7 +74,8 @@ bool is_taken_up(const Trial& trial, const Limits& limits);
 /// limits.interest of the largest torque and is worth limits.named_gain beside what came after it.
 void judge_small_again(const Frame& frame, const Limits& limits, Selection& selection);
 
-/// The fit with causes added while they gain; none is taken out again.
+/// The fit with causes added while the best takes limits.tenth of the misfit beyond noise that is
+/// left; none is taken out again. Errors: as those of a fit.
 Result<Findings> nearest_model(const Frame& frame, const Limits& limits,
                                const std::function<void(double, std::string_view)>& progress);
 
