@@ -323,41 +323,6 @@ TEST(Causes, OfTheTorqueSignalKeepTheRatioOfTheirEquations) {
   EXPECT_GE(checked, 4);
 }
 
-// The channel of the motor's torque ripples, and was zeroed where the motor stood.
-TEST(MotorTorqueRipple, OfAChannelHasTheChannelsZero) {
-  const auto made = drawn_case(Rig::servo, 8, {{"variant:motor_crosstalk", 0.07}});
-  const Diagnosis d = diagnosed(made.recordings);
-  EXPECT_EQ(names(d), std::vector<std::string>{"motor_torque_ripple"});
-  EXPECT_EQ(std::ranges::count_if(
-                d.notes,
-                [](const std::string& one) { return one.find("may stick") != std::string::npos; }),
-            1)
-      << "what the picture shows of standstill is not judged";
-}
-
-// A motor that is held turns through a few of the periods that its slots and poles make.
-TEST(MotorTorqueRipple, OfALockedDriveIsToldByItsOrder) {
-  auto made = drawn_case(Rig::locked, 3);
-  double largest = 0.0;
-  for (const Recording& r : made.recordings.recordings) {
-    for (const double torque : r.channels.at(Quantity::motor_torque)) {
-      largest = std::max(largest, std::abs(torque));
-    }
-  }
-  for (Recording& r : made.recordings.recordings) {
-    const auto& angle = r.channels.at(Quantity::motor_angle);
-    auto& torque = r.channels.at(Quantity::motor_torque);
-    for (std::size_t i = 0; i < angle.size(); ++i) {
-      torque[i] += 0.04 * largest * std::sin(84.0 * angle[i] + 1.0);
-    }
-  }
-  const Diagnosis d = diagnosed(made.recordings);
-  ASSERT_EQ(names(d), std::vector<std::string>{"motor_torque_ripple"});
-  EXPECT_EQ(d.causes[0].parameters[0].name, "order");
-  EXPECT_DOUBLE_EQ(d.causes[0].parameters[0].value, 84.0);
-  EXPECT_NEAR(d.causes[0].size_fraction, 0.04, 0.01);
-}
-
 // A sensor's noise that has a colour is in its smoothed torque, too: to undo a delay must not take
 // any of it out, or every delay would fit better than none.
 TEST(SensorDelay, IsUndoneWithoutTheNoiseOfTheTorque) {

@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "active_cause.hpp"
 #include "diagnosis/frame/frame.hpp"
 #include "diagnosis/model/cause.hpp"
+#include "diagnosis/search/exchange.hpp"
 #include "diagnosis_checks.hpp"
 #include "flexspline/core/simulate.hpp"
 
@@ -170,6 +172,26 @@ TEST(LateTorque, IsNotThatOfAFilterOnBothChannels) {
   EXPECT_NEAR(parameter(d.model->drive.torsion, "inertia_torque", "inertia"), kInertia,
               0.03 * kInertia);
   EXPECT_LT(d.holdout.rmse_after, 1.5 * kNoise);
+}
+
+// While the inertia is missing a delay explains more; beside it the filter does as well.
+TEST(LateTorque, GivesWayToAFilterOnBothChannelsInTheEnd) {
+  const auto frame = make_frame(joint({.filter = 0.03, .angle = 0.03}), 4000);
+  ASSERT_TRUE(frame);
+  Selection s;
+  s.final = *fit_baseline(*frame);
+  for (const char* id : {"sensor_delay", "inertia_torque"}) {
+    const auto [row, form] = form_named(*frame, id);
+    Accepted a;
+    a.trial = try_cause(*frame, s.final, active(*frame, *row, *form));
+    s.final.fit = a.trial.fit;
+    s.accepted.push_back(std::move(a));
+    ASSERT_TRUE(refresh(*frame, s.final, 8));
+  }
+  ASSERT_TRUE(exchange_for_better(*frame, {}, s));
+  ASSERT_EQ(s.accepted.size(), 2U);
+  EXPECT_EQ(s.accepted.front().trial.cause.row->id, "inertia_torque");
+  EXPECT_EQ(s.accepted.back().trial.cause.row->id, "common_filter");
 }
 
 TEST(LateTorque, IsNotThatOfAFilterOfSecondOrderOnBothChannels) {

@@ -124,6 +124,15 @@ TEST(OutsideCauses, AFreeDrivesSensorWithPlayIsUnexplained) {
   EXPECT_LT(d.holdout.ratio, 0.5) << "it is in the model";
 }
 
+// A soft wind-up of half the torque was named for it: f took up the rest.
+TEST(OutsideCauses, ALockedDrivesSensorThatIsNoLineIsUnexplained) {
+  const auto hidden = drawn_case(Rig::locked, 51, {{"unknown:sensor_quadratic", 0.09}});
+  const Diagnosis d = diagnosed(hidden.recordings);
+  EXPECT_TRUE(d.causes.empty()) << names(d).front();
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.says;
+  EXPECT_NE(d.says.find("outside the catalogue"), std::string::npos) << d.says;
+}
+
 // Nor is a motion proposed that tells a name from what has none.
 TEST(OutsideCauses, AreNothingThatANameIsConfusedWith) {
   const auto hidden = drawn_case(Rig::locked, 5, {{"presliding_hysteresis", 0.06}});

@@ -10,7 +10,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   law.parameters = {{"amplitude_order_2", crosstalk, "Nm"}};
   law.sensing = [=](HiddenSignals& s) {
     for (std::size_t k = 0; k < s.size(); ++k) {
-      s.motor_torque[k] += crosstalk * (std::sin(2.0 * s.motor_angle[k] + phase) - std::sin(phase));
+      s.motor_torque[k] += crosstalk * std::sin(2.0 * s.motor_angle[k] + phase);
     }
   };
   return law;
@@ -22,7 +22,7 @@ HiddenRow describe_variant_motor_crosstalk() {
   return {
       .id = "variant:motor_crosstalk",
       .coordinate = "motor_angle",
-      .equation = "y_m = tau_m + a (sin(2 th1 + p) - sin p): the channel, not the shaft, ripples",
+      .equation = "y_m = tau_m + a sin(2 th1 + p): the channel, not the shaft, ripples",
       .site = HiddenSite::motor_sensor,
       .rigs = {Rig::free, Rig::servo},
       .dissipates = false,

@@ -43,17 +43,6 @@ std::vector<Shape> turns(const Frame& f) {
            .meaning = "of a turn of the motor"}};
 }
 
-std::vector<Shape> turns_and_zero(const Frame& f) {
-  auto shapes = turns(f);
-  shapes.push_back({.name = "zeroed_at",
-                    .unit = "rad",
-                    .lower = -std::numbers::pi,
-                    .upper = std::numbers::pi,
-                    .logarithmic = false,
-                    .meaning = "phase of the ripple at which the channel was zeroed"});
-  return shapes;
-}
-
 // Of a gear whose output is held: the torsion as recorded, times the ratio.
 ArrayXd motor_angle_of_specimen(const Frame& f) {
   ArrayXd torsion = f.torsion + f.zero;
@@ -210,14 +199,6 @@ Columns ripple_of_drive_under_current(Equation, const Frame& f, const Reference&
   return left_of(loop_of_drive(f, shape), f, f.motor_angle, f.smooth_motor_torque);
 }
 
-// A channel that ripples was zeroed at some angle of the motor: there it shows nothing.
-Columns ripple_of_channel(Equation, const Frame& f, const Reference&, Values shape) {
-  Columns columns = sine_pair(f.motor_angle, shape[0]);
-  columns[0] -= std::sin(shape[1]);
-  columns[1] -= std::cos(shape[1]);
-  return columns;
-}
-
 Counterpart cogging(const FittedCause& c) {
   return {.effects = {{"motor_torque_ripple",
                        {{"order", c.shape[0]},
@@ -225,14 +206,6 @@ Counterpart cogging(const FittedCause& c) {
                         {"cogging_cosine", c.coefficients[1]},
                         {"ripple_sine", 0.0},
                         {"ripple_cosine", 0.0}}}}};
-}
-
-Counterpart with_its_zero(const FittedCause& c) {
-  Counterpart counterpart = cogging(c);
-  const double zero =
-      c.coefficients[0] * std::sin(c.shape[1]) + c.coefficients[1] * std::cos(c.shape[1]);
-  counterpart.effects.push_back({"motor_torque_offset", {{"offset", -zero}}});
-  return counterpart;
 }
 
 Counterpart under_current(const FittedCause& c) {
@@ -275,16 +248,6 @@ CauseRow describe_motor_torque_ripple() {
                      .columns = ripple,
                      .where = ripples_beside_f,
                      .counterpart = cogging},
-                    {.equation = "tau_m,recorded = tau_m + a (sin k theta_m - sin p) + b (cos k "
-                                 "theta_m - cos p)",
-                     .rigs = kTurning,
-                     .at = {Equation::motor},
-                     .shapes = turns_and_zero,
-                     .terms = cogging_terms,
-                     .columns = ripple_of_channel,
-                     .extends = true,
-                     .where = geared,
-                     .counterpart = with_its_zero},
                     {.equation = "tau_f += tau_m (a sin k theta_m + b cos k theta_m)",
                      .rigs = kTurning,
                      .at = {Equation::motor},

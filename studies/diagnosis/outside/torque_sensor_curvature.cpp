@@ -24,6 +24,8 @@ std::vector<Term> terms(const Frame&) {
 // The spring takes it up: known inertias tell it, not a motor's friction that goes by the load.
 bool told_by_inertia(const Frame& f) { return f.has(Equation::torsion) && f.has(Equation::load); }
 
+bool told_by_motor(const Frame& f) { return f.has(Equation::torsion) && f.has(Equation::motor); }
+
 }  // namespace
 
 CauseRow describe_torque_sensor_curvature() {
@@ -35,6 +37,13 @@ CauseRow describe_torque_sensor_curvature() {
                      .terms = terms,
                      .columns = curved,
                      .where = told_by_inertia,
+                     .no_counterpart = "torque_sensor_nonlinearity has no even part"},
+                    {.equation = "tau_measured = tau + T (a x^2 + b (5 x^3 - 3 x)/2), x = tau/T",
+                     .rigs = {Rig::locked},
+                     .at = {Equation::torsion, Equation::motor},
+                     .terms = terms,
+                     .columns = curved,
+                     .where = told_by_motor,
                      .no_counterpart = "torque_sensor_nonlinearity has no even part"}},
           .outside = "a torque sensor whose reading is no line"};
 }

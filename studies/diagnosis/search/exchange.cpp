@@ -13,7 +13,20 @@ bool is_in(const DriveModel& model, const CauseRow* row) {
 
 bool is_contested(const Selection& s, std::size_t cause) {
   const Accepted& a = s.accepted[cause];
-  return !a.rivals.empty() && !a.trial.cause.row->of_baseline();
+  return !a.trial.cause.row->of_baseline();
+}
+
+// Parts of the baseline that act where a cause does, from where their search starts.
+std::vector<ActiveCause> parts_in_place_of(const CauseRow& row, const Frame& frame,
+                                           const DriveModel& model) {
+  std::vector<ActiveCause> parts;
+  for (const CauseRow& part : baseline_parts()) {
+    if (part.coordinate != row.coordinate || is_in(model, &part)) continue;
+    for (const CauseForm* form : forms_on(part, frame)) {
+      if (form->start != nullptr) parts.push_back({&part, form, form->start(frame)});
+    }
+  }
+  return parts;
 }
 
 /// A cause and its alternatives, each tried on the model without it: the cause first.
@@ -27,6 +40,8 @@ Result<std::vector<Trial>> contest(const Frame& frame, const Limits& limits, con
   for (const Trial& rival : s.accepted[cause].rivals) {
     if (!is_in(s.final.fit.model, rival.cause.row)) entries.push_back(rival.cause);
   }
+  std::ranges::move(parts_in_place_of(*entries.front().row, frame, s.final.fit.model),
+                    std::back_inserter(entries));
   std::vector<Trial> trials(entries.size());
   in_parallel(entries.size(), threads_for(limits.threads),
               [&](std::size_t k) { trials[k] = try_cause(frame, rest, entries[k]); });
@@ -44,10 +59,12 @@ void put_in_place(Selection& s, std::size_t cause, std::vector<Trial> trials, st
 }
 
 /// Where the best of a contest stands; 0: the cause itself.
-std::size_t winner(const std::vector<Trial>& trials) {
+std::size_t winner(const std::vector<Trial>& trials, const Limits& limits) {
   const auto best = std::ranges::max_element(trials, {}, &Trial::net_gain);
-  return best != trials.end() && best->gain > 0.0 ? static_cast<std::size_t>(best - trials.begin())
-                                                  : 0;
+  if (best == trials.end() || !(best->gain > 0.0)) return 0;
+  const auto part = std::ranges::find_if(
+      trials, [&](const Trial& trial) { return goes_before(trial, *best, limits); });
+  return static_cast<std::size_t>((part != trials.end() ? part : best) - trials.begin());
 }
 
 /// The contests of the first `count` causes, side by side; nothing of one that its cause wins.
@@ -57,7 +74,7 @@ std::vector<Result<std::vector<Trial>>> contests(const Frame& frame, const Limit
   in_parallel(count, threads_for(limits.threads), [&](std::size_t i) {
     if (!is_contested(s, i)) return;
     auto trials = contest(frame, limits, s, i);
-    if (!trials || winner(*trials) > 0) all[i] = std::move(trials);
+    if (!trials || winner(*trials, limits) > 0) all[i] = std::move(trials);
   });
   return all;
 }
@@ -70,7 +87,7 @@ Result<void> exchange_for_better(const Frame& frame, const Limits& limits, Selec
   auto all = contests(frame, limits, s, s.accepted.size() - 1);
   for (std::size_t i = all.size(); i-- > 0;) {
     if (!all[i]) return tl::unexpected(all[i].error());
-    const std::size_t best = winner(*all[i]);
+    const std::size_t best = winner(*all[i], limits);
     if (best == 0) continue;
     put_in_place(s, i, *std::move(all[i]), best, limits);
     const auto again = refresh(frame, s.final, kRefreshSteps);

@@ -27,8 +27,7 @@ std::size_t chosen(const std::vector<Trial>& trials, const Selection& s, const L
   };
   const auto best = std::ranges::find_if(trials, may_be);
   const auto goes_first = [&](const Trial& trial) {
-    return may_be(trial) && trial.cause.row->of_baseline() && !trial.cause.form->extends &&
-           trial.gain > best->gain - limits.named_gain;
+    return may_be(trial) && goes_before(trial, *best, limits);
   };
   auto part = std::ranges::find_if(trials, goes_first);
   if (part == trials.end()) return static_cast<std::size_t>(best - trials.begin());
@@ -123,6 +122,11 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients) {
 bool is_taken_up(const Trial& trial, const Limits& limits) {
   return trial.cause.form->transform == nullptr && trial.size >= limits.half &&
          trial.change < limits.alike() * trial.size;
+}
+
+bool goes_before(const Trial& part, const Trial& cause, const Limits& limits) {
+  return part.cause.row != nullptr && part.cause.row->of_baseline() && !part.cause.form->extends &&
+         part.gain > cause.gain - limits.named_gain && admissible(part, limits);
 }
 
 void judge_small_again(const Frame& frame, const Limits& limits, Selection& s) {

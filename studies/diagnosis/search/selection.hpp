@@ -70,6 +70,9 @@ bool is_no_part(const CauseRow& row, const Eigen::VectorXd& coefficients);
 /// True for columns that the baseline counteracts: large, and not nearly all of them is seen.
 bool is_taken_up(const Trial& trial, const Limits& limits);
 
+/// True for a part of the baseline beside which a cause gains less than a name has to.
+bool goes_before(const Trial& part, const Trial& cause, const Limits& limits);
+
 /// Makes a cause material that was too small to be named when it was accepted, and now adds
 /// limits.interest of the largest torque and is worth limits.named_gain beside what came after it.
 void judge_small_again(const Frame& frame, const Limits& limits, Selection& selection);
