@@ -19,7 +19,7 @@ inline Eigen::ArrayXd normal(Eigen::Index rows, std::uint64_t seed) {
 }
 
 /// The measured recordings of a bench drawn from a seed, and what it hides.
-inline ConcealedCase drawn_case(Rig rig, std::uint64_t seed,
+inline ConcealedCase drawn_case(data::BenchKind rig, std::uint64_t seed,
                                 std::vector<data::HiddenEffect> effects = {}) {
   ConcealPlan plan;
   plan.rig = rig;

@@ -133,6 +133,15 @@ TEST(OutsideCauses, ALockedDrivesSensorThatIsNoLineIsUnexplained) {
   EXPECT_NE(d.says.find("outside the catalogue"), std::string::npos) << d.says;
 }
 
+// Friction that varies over a turn of the wave generator was named for it.
+TEST(OutsideCauses, AJointThatRubsAtOnePlaceIsUnexplained) {
+  const auto hidden = drawn_case({Rig::specimen, true}, 4, {{"unknown:dry_patch", 0.06}});
+  const Diagnosis d = diagnosed(hidden.recordings);
+  EXPECT_TRUE(d.causes.empty()) << names(d).front();
+  EXPECT_EQ(d.verdict, Verdict::unexplained) << d.says;
+  EXPECT_NE(d.says.find("differs along the travel"), std::string::npos) << d.says;
+}
+
 // Nor is a motion proposed that tells a name from what has none.
 TEST(OutsideCauses, AreNothingThatANameIsConfusedWith) {
   const auto hidden = drawn_case(Rig::locked, 5, {{"presliding_hysteresis", 0.06}});

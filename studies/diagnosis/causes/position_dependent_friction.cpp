@@ -26,14 +26,6 @@ Columns at_joint(Equation, const Frame& f, const Reference& known, Values) {
   return turns(f.motor_angle, rounded_sign(f.torsion_rate, known.torsion_sign));
 }
 
-// What a joint shows along its travel: two harmonics of twice the travel.
-Columns along_travel(Equation, const Frame& f, const Reference& known, Values) {
-  const ArrayXd sign = rounded_sign(f.torsion_rate, known.torsion_sign);
-  const double low = f.torsion.minCoeff();
-  const ArrayXd u = 3.14159265358979323846 * (f.torsion - low) / (f.torsion.maxCoeff() - low);
-  return {u.cos() * sign, (2.0 * u).cos() * sign, (3.0 * u).cos() * sign};
-}
-
 void add_wave(EffectSpec& effect, double order, double sine, double cosine, double width) {
   for (const auto& [name, value] : {std::pair("order", order), std::pair("sine", sine),
                                     std::pair("cosine", cosine), std::pair("smoothing", width)}) {
@@ -62,31 +54,11 @@ Counterpart joint_waves(const FittedCause& c) {
   return {.effects = {std::move(effect)}};
 }
 
-Counterpart travel_waves(const FittedCause& c) {
-  EffectSpec effect{"position_dependent_friction", {}};
-  const double low = c.frame.torsion.minCoeff();
-  const double half_turn = std::numbers::pi / (c.frame.torsion.maxCoeff() - low);
-  for (Eigen::Index k = 0; k < c.coefficients.size(); ++k) {
-    const double order = half_turn * (static_cast<double>(k) + 1.0);
-    for (const SignPart& part : c.torsion_sign) {
-      const double a = part.share * c.coefficients[k];
-      add_wave(effect, order, a * std::sin(order * low), a * std::cos(order * low), part.width);
-    }
-  }
-  return {.effects = {std::move(effect)}};
-}
-
 std::vector<Term> turn_terms(const Frame&) {
   return {{"sine_1", "Nm", "of the friction once a turn of the motor"},
           {"cosine_1", "Nm", "its cosine"},
           {"sine_2", "Nm", "of the friction twice a turn"},
           {"cosine_2", "Nm", "its cosine"}};
-}
-
-std::vector<Term> travel_terms(const Frame&) {
-  return {{"cosine_1", "Nm", "of the friction over the travel, half a wave"},
-          {"cosine_2", "Nm", "one wave"},
-          {"cosine_3", "Nm", "one and a half waves"}};
 }
 
 }  // namespace
@@ -109,14 +81,7 @@ CauseRow describe_position_dependent_friction() {
                .columns = at_joint,
                .where = travels,
                .ripples = ripples,
-               .counterpart = joint_waves},
-              {.equation = "tau += sum_k a_k cos(k pi s) sgn q', s the share of the travel",
-               .rigs = {Rig::specimen},
-               .at = {Equation::torsion},
-               .terms = travel_terms,
-               .columns = along_travel,
-               .where = travels,
-               .counterpart = travel_waves}}};
+               .counterpart = joint_waves}}};
 }
 
 }  // namespace flexspline::studies

@@ -54,6 +54,12 @@ void take_names(Selection& s, std::size_t from) {
   s.accepted.erase(first, s.accepted.end());
 }
 
+// Recordings held out confirm these causes: those of interest are something, whatever it is.
+bool is_something(const Selection& s, std::size_t from) {
+  return std::any_of(s.accepted.begin() + static_cast<std::ptrdiff_t>(from), s.accepted.end(),
+                     [](const Accepted& a) { return a.material; });
+}
+
 // What the named causes leave.
 void take_misfit(Selection& s, Selection named) {
   s.before = std::move(named.before);
@@ -73,7 +79,8 @@ Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Se
     if (!proof_of_named) return proof_of_named;
     proof_of_named->causes.assign(proof.causes.begin(),
                                   proof.causes.begin() + static_cast<std::ptrdiff_t>(count));
-    const bool left = named->remainder || is_beyond_noise(frame, proof_of_named->holdout, limits);
+    const bool left = named->remainder || is_something(s, count) ||
+                      is_beyond_noise(frame, proof_of_named->holdout, limits);
     if (!left || !implausible(frame, s, limits).empty()) {
       s = std::move(*named);
       return proof_of_named;
