@@ -81,6 +81,24 @@ TEST(AsymmetricSpring, MayDifferMoreAndMore) {
   EXPECT_LT(std::sqrt(left.square().mean()), 1.05 * 0.02);
 }
 
+// A side that is a tenth stiffer than in the middle, the other a tenth softer.
+TEST(AsymmetricSpring, MayDifferByAFifth) {
+  constexpr double kExcess = 0.1;
+  Frame frame = closed_form_frame();
+  const Eigen::ArrayXd spring = 5e3 * frame.torsion + 1e9 * frame.torsion.cube();
+  frame.torque = spring + kExcess * spring.abs() + 4.0 * (frame.torsion_rate / 0.02).tanh() +
+                 0.02 * coloured_noise(frame.rows(), 0.0, 17);
+  frame.equations = {Equation::torsion};
+  frame.measure_torsion();
+  frame.torque_range = frame.torque.abs().maxCoeff();
+  const auto s = select_causes(frame, Limits{}, {});
+  ASSERT_TRUE(s) << s.error().message();
+  const DriveModel& model = s->final.fit.model;
+  ASSERT_EQ(model.causes.size(), 1U);
+  EXPECT_EQ(model.causes.front().row->id, "asymmetric_spring");
+  EXPECT_NEAR(model.coefficients.front()[0], kExcess, 0.004);
+}
+
 // An offset of 1.5 % explains what sides that differ more and more do nearly as well, with a number
 // less.
 TEST(AsymmetricSpring, LeavesAnOffsetItsName) {

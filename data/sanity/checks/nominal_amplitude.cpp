@@ -21,7 +21,10 @@ constexpr SanityVerdict kNearly{"check_units", Severity::warning, kUnit};
 constexpr double kAlike = 1.3;
 constexpr double kMistaken = 1.6;
 
-/// Half the range of what the bench moves, at the output, over what the set states.
+double off(double factor) { return std::abs(std::log(factor)); }
+
+/// Half the range of what the bench moves or the largest it comes to, at the output, over what the
+/// set states: whichever is nearer, as motions about another place are stated either way.
 std::vector<Factor> factors_of(const ObservedSet& all) {
   const double ratio = all.set.rig == Rig::locked ? all.constant("gear_ratio") : 1.0;
   std::vector<Factor> list;
@@ -32,8 +35,9 @@ std::vector<Factor> factors_of(const ObservedSet& all) {
     const double most =
         std::abs(*std::ranges::max_element(*motion, {}, [](double x) { return std::abs(x); })) /
         std::abs(ratio);
-    const bool one_sided = !is_off(most / *recording.amplitude, kAlike);
-    const double factor = (one_sided ? most : half) / *recording.amplitude;
+    const double factor = std::ranges::min({half, most}, {}, [&](double moved) {
+                            return off(moved / *recording.amplitude);
+                          }) / *recording.amplitude;
     if (factor > 0.0 && std::isfinite(factor)) list.push_back({recording.id, factor});
   }
   return list;

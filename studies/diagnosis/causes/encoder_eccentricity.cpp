@@ -39,12 +39,18 @@ void runout(Frame& f, Values shape) {
       f.load_acceleration * first - f.load_speed.square() * (shape[0] * s + shape[1] * c);
 }
 
-// The same of the motor's encoder, once a turn; the motor itself does not move by it.
+// The same of the motor's encoder, once a turn: the torsion is more by e, the motor's angle less by
+// N e of the other sign.
 void motor_runout(Frame& f, Values shape) {
   const ArrayXd s = f.motor_angle.sin();
   const ArrayXd c = f.motor_angle.cos();
-  f.torsion += shape[0] * s + shape[1] * c;
-  f.torsion_rate += f.motor_speed * (shape[0] * c - shape[1] * s);
+  const ArrayXd e = shape[0] * s + shape[1] * c;
+  const ArrayXd first = shape[0] * c - shape[1] * s;
+  f.torsion += e;
+  f.torsion_rate += f.motor_speed * first;
+  f.motor_angle += f.ratio * e;
+  f.motor_acceleration += f.ratio * (f.motor_acceleration * first - f.motor_speed.square() * e);
+  f.motor_speed += f.ratio * f.motor_speed * first;
 }
 
 // A servo has one encoder: its motor moves as the arm does.
@@ -96,7 +102,7 @@ CauseRow describe_encoder_eccentricity() {
                      .counterpart = at_the_load},
                     {.equation = "theta_m,measured = theta_m + N e sin(theta_m + p)",
                      .rigs = {Rig::free},
-                     .at = {Equation::torsion},
+                     .at = {Equation::torsion, Equation::motor},
                      .shapes = amplitudes,
                      .transform = motor_runout,
                      .start = motor_start,
