@@ -138,6 +138,22 @@ bool is_position(Quantity quantity) {
          quantity == torsion || quantity == displacement;
 }
 
+Recording without_marked(const Recording& recording) {
+  const Series* valid = recording.find(Quantity::valid);
+  Recording sound = recording;
+  if (valid == nullptr) return sound;
+  const auto keep_valid = [&](Series& values) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if ((*valid)[i] > 0.5) values[kept++] = values[i];
+    }
+    values.resize(kept);
+  };
+  keep_valid(sound.time);
+  for (auto& [quantity, values] : sound.channels) keep_valid(values);
+  return sound;
+}
+
 const std::vector<double>* held_motion(const RecordingSet& set, const Recording& recording) {
   using enum Quantity;
   if (set.rig == Rig::locked) return recording.find(motor_angle);

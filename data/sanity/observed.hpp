@@ -42,6 +42,9 @@ std::vector<Quantity> sensed_channels(const RecordingSet& set);
 /// An angle or a displacement: what a bench may hold still.
 bool is_position(Quantity quantity);
 
+/// A recording without the samples that the bench marked with valid = 0.
+Recording without_marked(const Recording& recording);
+
 /// The channel that the rig's position loop moves: the motor's, the load's or the specimen's.
 const std::vector<double>* held_motion(const RecordingSet& set, const Recording& recording);
 

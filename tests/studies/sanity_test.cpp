@@ -100,6 +100,10 @@ TEST(Sanity, AMotorThatSticksAtItsReversalsIsNotCutOff) {
       angle = std::clamp(angle, -0.18, 0.18);
     }
     EXPECT_TRUE(raises(cut, "clipped")) << level;
+    for (const double angle : cut.recordings[0].channels.at(Quantity::motor_angle)) {
+      cut.recordings[0].channels[Quantity::valid].push_back(std::abs(angle) < 0.17 ? 1.0 : 0.0);
+    }
+    EXPECT_FALSE(raises(cut, "clipped")) << level << ", as the remedy has it";
   }
 }
 

@@ -186,10 +186,11 @@ bool is_clipped(const ObservedSet& all, const Recording& recording, Quantity qua
 
 std::vector<SanityFinding> find(const ObservedSet& all) {
   std::vector<SanityFinding> list;
-  for (const Recording& recording : all.set.recordings) {
+  for (const Recording& whole : all.set.recordings) {
+    const Recording recording = without_marked(whole);
     for (const Quantity quantity : sensed_channels(all.set)) {
       const Series* values = recording.find(quantity);
-      if (values == nullptr || !(range_of(*values) > 0.0)) continue;
+      if (values == nullptr || values->empty() || !(range_of(*values) > 0.0)) continue;
       for (const bool top : {true, false}) {
         const double value =
             top ? *std::ranges::max_element(*values) : *std::ranges::min_element(*values);

@@ -28,16 +28,19 @@ double off(double factor) { return std::abs(std::log(factor)); }
 std::vector<Factor> factors_of(const ObservedSet& all) {
   const double ratio = all.set.rig == Rig::locked ? all.constant("gear_ratio") : 1.0;
   std::vector<Factor> list;
-  for (const Recording& recording : all.set.recordings) {
+  for (const Recording& whole : all.set.recordings) {
+    const Recording recording = without_marked(whole);
     const auto* motion = held_motion(all.set, recording);
-    if (motion == nullptr || !(recording.amplitude.value_or(0.0) > 0.0)) continue;
+    if (motion == nullptr || motion->empty() || !(recording.amplitude.value_or(0.0) > 0.0))
+      continue;
     const double half = 0.5 * range_of(*motion) / std::abs(ratio);
     const double most =
         std::abs(*std::ranges::max_element(*motion, {}, [](double x) { return std::abs(x); })) /
         std::abs(ratio);
-    const double factor = std::ranges::min({half, most}, {}, [&](double moved) {
-                            return off(moved / *recording.amplitude);
-                          }) / *recording.amplitude;
+    const double factor =
+        std::ranges::min({half, most}, {},
+                         [&](double moved) { return off(moved / *recording.amplitude); }) /
+        *recording.amplitude;
     if (factor > 0.0 && std::isfinite(factor)) list.push_back({recording.id, factor});
   }
   return list;
