@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/frame/mode.hpp"
 #include "diagnosis/proof/held_out_error.hpp"
 #include "diagnosis/unnamed/unnamed_proof.hpp"
 #include "flexspline/core/in_parallel.hpp"
@@ -31,42 +32,6 @@ constexpr double kKept = 0.5;           // of a bandwidth: smoothing takes 1/65 
 constexpr int kHalvings = 5;            // to 0.2 % of a frequency, 6 % of a damping ratio
 constexpr double kAlike = 1e-12;        // one less a squared correlation: rounding
 
-struct Mode {
-  double frequency = 0.0;
-  double damping = 0.0;
-};
-
-/// q - u and q'/w of a mode, by row.
-struct Answer {
-  ArrayXd place, speed;
-};
-
-// Exact for u linear between rows; at rest at the start of every recording.
-Answer answer_of(const Frame& frame, const ArrayXd& u, const Mode& mode) {
-  Answer answer{ArrayXd::Zero(u.size()), ArrayXd::Zero(u.size())};
-  const auto [w, z] = mode;
-  const double turn = w * std::sqrt(1.0 - z * z);
-  for (const Segment& s : frame.segments) {
-    if (s.count < 2) continue;
-    const Index last = s.first + s.count - 1;
-    const double step = (frame.time[last] - frame.time[s.first]) / static_cast<double>(s.count - 1);
-    const double decay = std::exp(-z * w * step);
-    const double c = decay * std::cos(turn * step), n = decay * std::sin(turn * step);
-    double q = u[s.first], rate = 0.0;
-    for (Index r = s.first; r < last; ++r) {
-      const double slope = (u[r + 1] - u[r]) / step;
-      const double ramp = u[r] - 2.0 * z * slope / w;  // where q would be if it had settled
-      const double x = q - ramp, v = rate - slope;
-      const double y = (v + z * w * x) / turn;
-      q = ramp + slope * step + c * x + n * y;
-      rate = slope + c * v - n * (turn * x + z * w * y);
-      answer.place[r + 1] = q - u[r + 1];
-      answer.speed[r + 1] = rate / w;
-    }
-  }
-  return answer;
-}
-
 /// A mode whose answer is fitted to the rows that have a weight: a (q - u) + b q'/w.
 struct ModeFit {
   Mode mode;
@@ -84,7 +49,7 @@ ArrayXd torque_of(const Frame& frame, const ModelFit& model, Equation equation) 
 
 ModeFit fitted(const Frame& frame, const ArrayXd& u, const ArrayXd& residual, const ArrayXd& weight,
                const Mode& mode) {
-  const Answer answer = answer_of(frame, u, mode);
+  const ModeAnswer answer = answer_of(frame, u, mode);
   const ArrayXd x = answer.place * weight, y = answer.speed * weight;
   const double xx = x.square().sum(), yy = y.square().sum(), xy = (x * y).sum();
   const double xr = (x * residual * weight).sum(), yr = (y * residual * weight).sum();
@@ -173,7 +138,7 @@ ModeFit best_mode(const Frame& frame, const ModelFit& model, Equation equation,
 
 ArrayXd part_of(const Frame& frame, const ModelFit& model, Equation equation, const ModeFit& fit) {
   if (!(fit.gain > 0.0)) return ArrayXd::Zero(frame.rows());
-  const Answer answer = answer_of(frame, torque_of(frame, model, equation), fit.mode);
+  const ModeAnswer answer = answer_of(frame, torque_of(frame, model, equation), fit.mode);
   return fit.a * answer.place + fit.b * answer.speed;
 }
 
