@@ -10,7 +10,7 @@ namespace {
 using Values = std::span<const double>;
 
 constexpr double kRowsPerPeriod = 5.0;  // linear between these a sine is 19 % off at most
-constexpr int kFrequencies = 20;
+constexpr int kFrequencies = 12;
 
 // Below the lower one a mode follows the motion.
 std::vector<Shape> frequency_and_damping(const Frame& f) {
@@ -36,7 +36,7 @@ std::vector<Term> terms(const Frame&) {
 
 bool rows_tell(const Frame& f) {
   const auto shapes = frequency_and_damping(f);
-  return f.has(Equation::torsion) && shapes[0].upper > 2.0 * shapes[0].lower;
+  return wound_up(f) && f.has(Equation::torsion) && shapes[0].upper > 2.0 * shapes[0].lower;
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ bool is_in(const DriveModel& model, const CauseRow* row) {
 }
 
 bool is_contested(const Selection& s, std::size_t cause) {
-  const Accepted& a = s.accepted[cause];
-  return !a.trial.cause.row->of_baseline();
+  return !s.accepted[cause].trial.cause.row->of_baseline();
 }
 
 // Parts of the baseline that act where a cause does, from where their search starts.
@@ -29,19 +28,27 @@ std::vector<ActiveCause> parts_in_place_of(const CauseRow& row, const Frame& fra
   return parts;
 }
 
-/// A cause and its alternatives, each tried on the model without it: the cause first.
+/// A cause first, then its alternatives and the parts of the baseline that may stand for it.
+std::vector<ActiveCause> contenders(const Frame& frame, const Selection& s, std::size_t cause) {
+  const DriveModel& model = s.final.fit.model;
+  std::vector<ActiveCause> entries = {model.causes[cause]};
+  for (const Trial& rival : s.accepted[cause].rivals) {
+    if (!is_in(model, rival.cause.row)) entries.push_back(rival.cause);
+  }
+  std::ranges::move(parts_in_place_of(*entries.front().row, frame, model),
+                    std::back_inserter(entries));
+  return entries;
+}
+
+/// Each contender tried on the model without the cause; none where it stands alone.
 Result<std::vector<Trial>> contest(const Frame& frame, const Limits& limits, const Selection& s,
                                    std::size_t cause) {
+  const auto entries = contenders(frame, s, cause);
+  if (entries.size() < 2) return std::vector<Trial>{};
   auto without = reduced(frame, s.final, cause, kRefreshSteps);
   if (!without) return tl::unexpected(without.error());
   Findings rest = s.final;
   rest.fit = std::move(*without);
-  std::vector<ActiveCause> entries = {s.final.fit.model.causes[cause]};
-  for (const Trial& rival : s.accepted[cause].rivals) {
-    if (!is_in(s.final.fit.model, rival.cause.row)) entries.push_back(rival.cause);
-  }
-  std::ranges::move(parts_in_place_of(*entries.front().row, frame, s.final.fit.model),
-                    std::back_inserter(entries));
   std::vector<Trial> trials(entries.size());
   in_parallel(entries.size(), threads_for(limits.threads),
               [&](std::size_t k) { trials[k] = try_cause(frame, rest, entries[k]); });
