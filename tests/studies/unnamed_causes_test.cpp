@@ -142,21 +142,8 @@ TEST_F(UnnamedCauses, TakeNamesAlongThatExplainLess) {
   EXPECT_TRUE(proof.causes.empty());
 }
 
-// Recordings held out confirm it, and it is large enough to be asked for.
-TEST_F(UnnamedCauses, OfInterestStayThoughTheNamedLeaveNothing) {
+TEST_F(UnnamedCauses, AreWithdrawnWhereTheNamedLeaveNothing) {
   add_least_of_all();
-  s_.accepted.front().trial.size = 1.01 * Limits{}.interest;
-  const std::string_view least = ids(s_.accepted).front();
-  const auto proof = take_names({0.2, 0.9});
-  EXPECT_THAT(ids(s_.accepted), ElementsAre(kHidden));
-  EXPECT_THAT(ids(s_.unnamed), ElementsAre(least));
-  EXPECT_EQ(s_.final.fit.model.causes.size(), 2U);
-  ASSERT_EQ(proof.causes.size(), 1U);
-}
-
-TEST_F(UnnamedCauses, OfNoInterestAreWithdrawnWhereTheNamedLeaveNothing) {
-  add_least_of_all();
-  s_.accepted.front().trial.size = 0.99 * Limits{}.interest;
   const auto proof = take_names({0.2, 0.9});
   EXPECT_THAT(ids(s_.accepted), ElementsAre(kHidden));
   EXPECT_THAT(ids(s_.unnamed), IsEmpty());

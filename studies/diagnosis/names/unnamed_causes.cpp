@@ -54,10 +54,10 @@ void take_names(Selection& s, std::size_t from) {
   s.accepted.erase(first, s.accepted.end());
 }
 
-// Recordings held out confirm these causes: those of interest are something, whatever it is.
-bool is_something(const Selection& s, std::size_t from) {
-  return std::any_of(s.accepted.begin() + static_cast<std::ptrdiff_t>(from), s.accepted.end(),
-                     [](const Accepted& a) { return a.material; });
+// Recordings held out confirm these causes: where nothing is named, one of interest is something.
+bool is_something(const Selection& s, std::size_t named) {
+  return named == 0 &&
+         std::ranges::any_of(s.accepted, [](const Accepted& a) { return a.material; });
 }
 
 // What the named causes leave.
