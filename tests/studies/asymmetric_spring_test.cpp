@@ -34,6 +34,23 @@ double applied(const ConcealedCase& hidden, const std::string& parameter) {
   return kNotComputed;
 }
 
+/// A motion in closed form under a torque: what a law of the torsion gives, dry friction, noise of
+/// 0.02 Nm.
+template <class Law>
+Frame recorded(const Law& law) {
+  Frame frame = closed_form_frame();
+  frame.torque = law(frame.torsion) + 4.0 * (frame.torsion_rate / 0.02).tanh() +
+                 0.02 * coloured_noise(frame.rows(), 0.0, 17);
+  frame.equations = {Equation::torsion};
+  frame.measure_torsion();
+  frame.torque_range = frame.torque.abs().maxCoeff();
+  return frame;
+}
+
+Eigen::ArrayXd hardening(const Eigen::ArrayXd& x, double cube = 1e9) {
+  return 5e3 * x + cube * x.cube();
+}
+
 /// What the trial of the part adds to a frame, over its f.
 double excess_found(const Frame& frame) {
   const auto findings = fit_baseline(frame);
@@ -47,13 +64,9 @@ double excess_found(const Frame& frame) {
 // tau = f(x) (1 + a sgn x) in closed form: the part is the best of all, and its coefficient a.
 TEST(AsymmetricSpring, IsFoundWithItsSize) {
   for (const double a : {0.03, -0.05}) {
-    Frame frame = closed_form_frame();
-    const Eigen::ArrayXd spring = 5e3 * frame.torsion + 1e12 * frame.torsion.cube();
-    frame.torque = spring + a * spring.abs() + 4.0 * (frame.torsion_rate / 0.02).tanh() +
-                   0.02 * coloured_noise(frame.rows(), 0.0, 17);
-    frame.equations = {Equation::torsion};
-    frame.measure_torsion();
-    frame.torque_range = frame.torque.abs().maxCoeff();
+    const Frame frame = recorded([&](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+      return hardening(x, 1e12) + a * hardening(x, 1e12).abs();
+    });
     EXPECT_NEAR(excess_found(frame), a, 0.1 * std::abs(a));
   }
 }
@@ -61,14 +74,9 @@ TEST(AsymmetricSpring, IsFoundWithItsSize) {
 // A side that is stiffer the further out: f(x) (1 + a tanh(2 x/X)) differs by 2 a tanh 2 at most.
 TEST(AsymmetricSpring, MayDifferMoreAndMore) {
   constexpr double kExcess = 0.04;
-  Frame frame = closed_form_frame();
-  const Eigen::ArrayXd spring = 5e3 * frame.torsion + 1e9 * frame.torsion.cube();
-  const Eigen::ArrayXd side = (2.0 * frame.torsion / frame.torsion_range).tanh();
-  frame.torque = spring * (1.0 + kExcess * side) + 4.0 * (frame.torsion_rate / 0.02).tanh() +
-                 0.02 * coloured_noise(frame.rows(), 0.0, 17);
-  frame.equations = {Equation::torsion};
-  frame.measure_torsion();
-  frame.torque_range = frame.torque.abs().maxCoeff();
+  const Frame frame = recorded([&](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+    return hardening(x) * (1.0 + kExcess * (2.0 * x / x.abs().maxCoeff()).tanh());
+  });
   const auto findings = fit_baseline(frame);
   ASSERT_TRUE(findings);
   const auto trials = try_causes(frame, *findings);
@@ -84,13 +92,9 @@ TEST(AsymmetricSpring, MayDifferMoreAndMore) {
 // A side that is a tenth stiffer than in the middle, the other a tenth softer.
 TEST(AsymmetricSpring, MayDifferByAFifth) {
   constexpr double kExcess = 0.1;
-  Frame frame = closed_form_frame();
-  const Eigen::ArrayXd spring = 5e3 * frame.torsion + 1e9 * frame.torsion.cube();
-  frame.torque = spring + kExcess * spring.abs() + 4.0 * (frame.torsion_rate / 0.02).tanh() +
-                 0.02 * coloured_noise(frame.rows(), 0.0, 17);
-  frame.equations = {Equation::torsion};
-  frame.measure_torsion();
-  frame.torque_range = frame.torque.abs().maxCoeff();
+  const Frame frame = recorded([&](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+    return hardening(x) + kExcess * hardening(x).abs();
+  });
   const auto s = select_causes(frame, Limits{}, {});
   ASSERT_TRUE(s) << s.error().message();
   const DriveModel& model = s->final.fit.model;
@@ -102,14 +106,9 @@ TEST(AsymmetricSpring, MayDifferByAFifth) {
 // An offset of 1.5 % explains what sides that differ more and more do nearly as well, with a number
 // less.
 TEST(AsymmetricSpring, LeavesAnOffsetItsName) {
-  Frame frame = closed_form_frame();
-  frame.torque = 5e3 * frame.torsion + 1e9 * frame.torsion.cube() +
-                 4.0 * (frame.torsion_rate / 0.02).tanh() +
-                 0.02 * coloured_noise(frame.rows(), 0.0, 17);
-  frame.torque += 0.015 * frame.torque.abs().maxCoeff();
-  frame.equations = {Equation::torsion};
-  frame.measure_torsion();
-  frame.torque_range = frame.torque.abs().maxCoeff();
+  const Frame frame = recorded([](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+    return hardening(x) + 0.015 * hardening(x).abs().maxCoeff();
+  });
   const auto s = select_causes(frame, Limits{}, {});
   ASSERT_TRUE(s) << s.error().message();
   std::vector<std::string> ids;

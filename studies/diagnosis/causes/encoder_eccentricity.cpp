@@ -39,8 +39,8 @@ void runout(Frame& f, Values shape) {
       f.load_acceleration * first - f.load_speed.square() * (shape[0] * s + shape[1] * c);
 }
 
-// The same of the motor's encoder, once a turn: the torsion is more by e, the motor's angle less by
-// N e of the other sign.
+// The same of the motor's encoder, once a turn: the motor is N e from where it was read, and the
+// torsion e.
 void motor_runout(Frame& f, Values shape) {
   const ArrayXd s = f.motor_angle.sin();
   const ArrayXd c = f.motor_angle.cos();

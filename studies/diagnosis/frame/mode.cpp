@@ -32,4 +32,11 @@ ModeAnswer answer_of(const Frame& frame, const ArrayXd& u, const Mode& mode) {
   return answer;
 }
 
+double slowest_mode(const Frame& frame) { return 1.0 / frame.longest_lag(); }
+
+double fastest_mode(const Frame& frame) {
+  constexpr double kRowsPerPeriod = 5.0;
+  return 2.0 * std::numbers::pi / (kRowsPerPeriod * frame.interval);
+}
+
 }  // namespace flexspline::studies

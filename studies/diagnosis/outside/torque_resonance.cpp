@@ -1,6 +1,3 @@
-#include <cmath>
-#include <numbers>
-
 #include "diagnosis/frame/mode.hpp"
 #include "diagnosis/model/cause_columns.hpp"
 
@@ -9,18 +6,21 @@ namespace {
 
 using Values = std::span<const double>;
 
-constexpr double kRowsPerPeriod = 5.0;  // linear between these a sine is 19 % off at most
 constexpr int kFrequencies = 12;
+constexpr double kLeastDamping = 0.01;
 
-// Below the lower one a mode follows the motion.
 std::vector<Shape> frequency_and_damping(const Frame& f) {
   return {{.name = "frequency",
            .unit = "rad/s",
-           .lower = 1.0 / f.longest_lag(),
-           .upper = 2.0 * std::numbers::pi / (kRowsPerPeriod * f.interval),
+           .lower = slowest_mode(f),
+           .upper = fastest_mode(f),
            .grid = kFrequencies,
            .meaning = "of the mode"},
-          {.name = "damping", .unit = "1", .lower = 0.01, .upper = 0.7, .meaning = "its ratio"}};
+          {.name = "damping",
+           .unit = "1",
+           .lower = kLeastDamping,
+           .upper = kMostDamping,
+           .meaning = "its ratio"}};
 }
 
 // Of the torque that the laws ask for, whose noise is in both reading and residual.
@@ -35,8 +35,7 @@ std::vector<Term> terms(const Frame&) {
 }
 
 bool rows_tell(const Frame& f) {
-  const auto shapes = frequency_and_damping(f);
-  return wound_up(f) && f.has(Equation::torsion) && shapes[0].upper > 2.0 * shapes[0].lower;
+  return wound_up(f) && f.has(Equation::torsion) && fastest_mode(f) > slowest_mode(f);
 }
 
 }  // namespace

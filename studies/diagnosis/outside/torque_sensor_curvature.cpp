@@ -21,10 +21,11 @@ std::vector<Term> terms(const Frame&) {
   return {{"even", "1", std::string(kOf)}, {"odd", "1", std::string(kOf)}};
 }
 
-// The spring takes it up: known inertias tell it, not a motor's friction that goes by the load.
-bool told_by_inertia(const Frame& f) { return f.has(Equation::torsion) && f.has(Equation::load); }
-
-bool told_by_motor(const Frame& f) { return f.has(Equation::torsion) && f.has(Equation::motor); }
+// The spring takes it up: a free drive's known inertia tells it, and the motor of one that is held,
+// whose friction turns its sign with the motion, as the reading does not.
+bool told_twice(const Frame& f) {
+  return f.has(Equation::torsion) && f.has(f.rig == Rig::free ? Equation::load : Equation::motor);
+}
 
 }  // namespace
 
@@ -32,18 +33,11 @@ CauseRow describe_torque_sensor_curvature() {
   return {.id = "torque_sensor_curvature",
           .coordinate = "load",
           .forms = {{.equation = "tau_measured = tau + T (a x^2 + b (5 x^3 - 3 x)/2), x = tau/T",
-                     .rigs = {Rig::free},
+                     .rigs = kDrives,
                      .at = {Equation::torsion, Equation::load, Equation::motor},
                      .terms = terms,
                      .columns = curved,
-                     .where = told_by_inertia,
-                     .no_counterpart = "torque_sensor_nonlinearity has no even part"},
-                    {.equation = "tau_measured = tau + T (a x^2 + b (5 x^3 - 3 x)/2), x = tau/T",
-                     .rigs = {Rig::locked},
-                     .at = {Equation::torsion, Equation::motor},
-                     .terms = terms,
-                     .columns = curved,
-                     .where = told_by_motor,
+                     .where = told_twice,
                      .no_counterpart = "torque_sensor_nonlinearity has no even part"}},
           .outside = "a torque sensor whose reading is no line"};
 }

@@ -26,11 +26,9 @@ constexpr std::array<double, 2> kDampings = {0.03, 0.2};  // initial guesses: ri
 constexpr double kOfFrequency = 1.0 + 2.0 * kDampings.front();
 constexpr double kOfDamping = kDampings.back() / kDampings.front();
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kMostDamping = 0.5 * std::numbers::sqrt2;  // with more a mode has no peak
-constexpr double kRowsPerPeriod = 5.0;  // linear between these a sine is 19 % off at most
-constexpr double kKept = 0.5;           // of a bandwidth: smoothing takes 1/65 of a motion, or less
-constexpr int kHalvings = 5;            // to 0.2 % of a frequency, 6 % of a damping ratio
-constexpr double kAlike = 1e-12;        // one less a squared correlation: rounding
+constexpr double kKept = 0.5;     // of a bandwidth: smoothing takes 1/65 of a motion, or less
+constexpr int kHalvings = 5;      // to 0.2 % of a frequency, 6 % of a damping ratio
+constexpr double kAlike = 1e-12;  // one less a squared correlation: rounding
 
 /// A mode whose answer is fitted to the rows that have a weight: a (q - u) + b q'/w.
 struct ModeFit {
@@ -70,9 +68,8 @@ double narrowest_bandwidth(const Frame& frame, Equation equation) {
 /// decay in the longest, and have a peak; of accelerations what smoothing leaves as it is.
 struct Range {
   Range(const Frame& frame, Equation equation)
-      : lowest(std::max(1.0 / frame.longest_lag(), kTurn / frame.duration)),
-        highest(std::min(kTurn / (kRowsPerPeriod * frame.interval),
-                         kKept * narrowest_bandwidth(frame, equation))),
+      : lowest(std::max(slowest_mode(frame), kTurn / frame.duration)),
+        highest(std::min(fastest_mode(frame), kKept * narrowest_bandwidth(frame, equation))),
         least_decay(1.0 / frame.duration) {}
 
   /// False where nothing moves or no time passes.
