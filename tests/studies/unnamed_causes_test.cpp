@@ -27,15 +27,20 @@ class UnnamedCauses : public SearchedDrive {
     ASSERT_THAT(ids(s_.accepted), ElementsAre(kHidden));
   }
 
-  // Puts the least of all others that are no friction before the hidden cause.
-  void add_least_of_all() {
+  // Of the causes that are no friction.
+  Trial least_of_all() {
     auto trials = try_causes(frame_, s_.baseline);
     std::erase_if(trials, [](const Trial& t) {
       return t.cause.row == nullptr || t.cause.row->of_baseline() ||
              !t.cause.row->outside.empty() || t.cause.form->friction;
     });
+    return *std::ranges::min_element(trials, {}, &Trial::gain);
+  }
+
+  // Puts it before the hidden cause.
+  void add_least_of_all() {
     Accepted least = s_.accepted.front();
-    least.trial = *std::ranges::min_element(trials, {}, &Trial::gain);
+    least.trial = least_of_all();
     s_.final.fit = least.trial.fit;
     ASSERT_TRUE(fit_all(frame_, s_.final, 0));
     auto both = extended(frame_, s_.final, s_.accepted.front().trial.cause, 8);
@@ -151,6 +156,24 @@ TEST_F(UnnamedCauses, AreWithdrawnWhereTheNamedLeaveNothing) {
   EXPECT_EQ(s_.final.fit.model.causes.size(), 1U);
   EXPECT_FALSE(s_.remainder);
   ASSERT_EQ(proof.causes.size(), 1U);
+}
+
+// Nothing is hidden, and noise is all that is left without it.
+TEST_F(UnnamedCauses, AloneAreSomethingFromTheInterestOn) {
+  for (const double share : {0.99, 1.01}) {
+    s_ = {};
+    search({}, kRows);
+    ASSERT_THAT(ids(s_.accepted), IsEmpty());
+    Accepted alone;
+    alone.trial = least_of_all();
+    alone.trial.size = share * limits_.interest;
+    s_.final.fit = alone.trial.fit;
+    s_.accepted.push_back(std::move(alone));
+    take_names({0.2});
+    EXPECT_THAT(ids(s_.accepted), IsEmpty());
+    EXPECT_THAT(ids(s_.unnamed), SizeIs(share > 1.0 ? 1 : 0));
+    EXPECT_THAT(ids(s_.withdrawn), SizeIs(share > 1.0 ? 0 : 1));
+  }
 }
 
 // Else what looks like a mistaken channel would be written into the model.
