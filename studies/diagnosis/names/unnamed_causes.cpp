@@ -5,6 +5,7 @@
 #include "diagnosis/names/confirm.hpp"
 #include "diagnosis/names/undecided.hpp"
 #include "diagnosis/search/explanation.hpp"
+#include "diagnosis/unnamed/unnamed.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -60,6 +61,17 @@ bool is_something(const Selection& s, std::size_t named) {
          std::ranges::any_of(s.accepted, [](const Accepted& a) { return a.material; });
 }
 
+// Beside what is named: whether a table of one or two coordinates follows what is missing better,
+// on recordings held out, than the forms whose names are taken do.
+bool is_told_better_by_table(const Frame& frame, const Limits& limits, const Selection& s,
+                             const Proof& proof, const Selection& named,
+                             const Proof& proof_of_named) {
+  const auto table = unnamed_part(frame, named, proof_of_named, limits);
+  const Equation equation = equation_to_prove(frame, named);
+  return table && table->equation == name_of(equation) && equation_to_prove(frame, s) == equation &&
+         table->holdout_ratio * proof_of_named.holdout.rmse_after < proof.holdout.rmse_after;
+}
+
 // What the named causes leave.
 void take_misfit(Selection& s, Selection named) {
   s.before = std::move(named.before);
@@ -81,7 +93,8 @@ Result<Proof> take_improbable_names(const Frame& frame, const Limits& limits, Se
                                   proof.causes.begin() + static_cast<std::ptrdiff_t>(count));
     const bool left = named->remainder || is_something(s, count) ||
                       is_beyond_noise(frame, proof_of_named->holdout, limits);
-    if (!left || !implausible(frame, s, limits).empty()) {
+    if (!left || !implausible(frame, s, limits).empty() ||
+        is_told_better_by_table(frame, limits, s, proof, *named, *proof_of_named)) {
       s = std::move(*named);
       return proof_of_named;
     }

@@ -131,9 +131,10 @@ Needless needless(const Frame& frame, const Limits& limits, const Selection& s,
 }  // namespace
 
 Result<void> take_out_needless(const Frame& frame, const Limits& limits, Selection& s) {
-  while (s.accepted.size() > 1) {
+  while (!s.accepted.empty()) {
     auto worth = worth_of_each(frame, s, limits.threads);
     if (!worth) return tl::unexpected(worth.error());
+    if (s.accepted.size() == 1) return {};
     const auto [cause, because] = needless(frame, limits, s, *worth);
     if (!cause) return {};
     s.final.fit = std::move(worth->without[*cause]);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "diagnosis/search/explanation.hpp"
 #include "diagnosis/words/spelled.hpp"
@@ -49,6 +50,19 @@ Mismatch explained(const Frame& frame, const Selection& s, const Accepted& a) {
   return m;
 }
 
+// What a form without a name was found to be: nothing else tells it.
+std::string with_its_shapes(const Frame& frame, const ActiveCause& cause) {
+  if (cause.form->shapes == nullptr) return std::string(cause.row->outside);
+  std::vector<std::string> said;
+  const auto shapes = cause.form->shapes(frame);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const std::string_view unit = shapes[i].unit == "1" ? "" : shapes[i].unit;
+    said.push_back(fmt::format("{} {:.3g}{}{}", shapes[i].name, cause.shape[i],
+                               unit.empty() ? "" : " ", unit));
+  }
+  return fmt::format("{} ({})", cause.row->outside, fmt::join(said, ", "));
+}
+
 Mismatch incident_in(const Frame& frame, const Incident& one) {
   const Segment& s = frame.segments[one.segment];
   return {.recording = s.id,
@@ -73,12 +87,17 @@ std::vector<Mismatch> spelled_mismatch(const Frame& frame, const Selection& s, c
     list.push_back(explained(frame, s, a));
     list.back().says += fmt::format("{}: {}", a.trial.cause.row->id, a.trial.cause.form->equation);
   }
-  for (const Accepted& a : s.unnamed) {
+  const DriveModel& model = s.final.fit.model;
+  for (std::size_t i = 0; i < s.unnamed.size(); ++i) {
+    const Accepted& a = s.unnamed[i];
     if (listed(list, a.trial.cause.row->coordinate)) continue;
     list.push_back(explained(frame, s, a));
     const CauseRow& row = *a.trial.cause.row;
     list.back().says +=
-        !row.in_catalogue() ? fmt::format("what is outside the catalogue: {}", row.outside)
+        !row.in_catalogue()
+            ? fmt::format(
+                  "what is outside the catalogue: {}",
+                  with_its_shapes(frame, model.causes[model.causes.size() - s.unnamed.size() + i]))
         : a.material ? fmt::format("what has the form of {}, a name of probability {:.2g}", row.id,
                                    a.probability)
                      : fmt::format("what has the form of {}, too small to be named", row.id);
