@@ -1,6 +1,7 @@
 #include "diagnosis/names/unnamed_causes.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "diagnosis/names/confirm.hpp"
 #include "diagnosis/names/undecided.hpp"
@@ -62,10 +63,14 @@ bool is_something(const Selection& s, std::size_t named) {
 }
 
 // Beside what is named: whether a table of one or two coordinates follows what is missing better,
-// on recordings held out, than the forms whose names are taken do.
+// on recordings held out, than forms that never had a name do. A doubted name says more than a
+// table.
 bool is_told_better_by_table(const Frame& frame, const Limits& limits, const Selection& s,
                              const Proof& proof, const Selection& named,
                              const Proof& proof_of_named) {
+  const auto behind = std::span(s.accepted).subspan(named.accepted.size());
+  const auto has_a_name = [](const Accepted& a) { return a.trial.cause.row->in_catalogue(); };
+  if (std::ranges::any_of(behind, has_a_name)) return false;
   const auto table = unnamed_part(frame, named, proof_of_named, limits);
   const Equation equation = equation_to_prove(frame, named);
   return table && table->equation == name_of(equation) && equation_to_prove(frame, s) == equation &&
