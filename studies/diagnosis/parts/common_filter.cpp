@@ -48,6 +48,14 @@ void before_the_filter(Frame& f, Values shape) {
   f.torque_lag = shape[0];
 }
 
+// Of a locked drive, whose accelerations are taken off what is measured behind the same filter.
+void before_the_filter_of_a_drive(Frame& f, Values shape) {
+  const double T = shape[0];
+  f.motor_angle += T * f.motor_speed, f.motor_speed += T * f.motor_acceleration;
+  f.torsion += T * f.torsion_rate, f.torsion_rate += T * f.torsion_acceleration;
+  f.torque_lag = T;
+}
+
 // The motion T later, by whatever else rounds it off as the torque is: a filter of higher order, or
 // the smoothing of a motion whose acceleration jumps, at a reversal with dry friction.
 void when_it_is_seen(Frame& f, Values shape) {
@@ -92,6 +100,13 @@ CauseRow describe_common_filter() {
                      .at = {Equation::motor},
                      .shapes = time_constant,
                      .transform = before_the_filter,
+                     .start = short_one,
+                     .no_counterpart = kOfTheBench},
+                    {.equation = kEquation,
+                     .rigs = {Rig::locked},
+                     .at = {Equation::torsion, Equation::motor},
+                     .shapes = time_constant,
+                     .transform = before_the_filter_of_a_drive,
                      .start = short_one,
                      .no_counterpart = kOfTheBench}},
           .part = BaselinePart{.says = in_words}};
