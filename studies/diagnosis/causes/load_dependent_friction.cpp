@@ -8,7 +8,7 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 Columns at_motor(Equation, const Frame& f, const Reference& known, Values) {
-  return {f.smooth_torque.abs() / f.ratio * known.motor_sign};
+  return {smooth_torque(f, known).abs() / f.ratio * known.motor_sign};
 }
 
 Columns across(Equation, const Frame& f, const Reference& known, Values) {

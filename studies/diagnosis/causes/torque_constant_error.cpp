@@ -7,8 +7,8 @@ using Eigen::ArrayXd;
 using Values = std::span<const double>;
 
 // tau_m,recorded = (J1 theta_m'' + friction + tau/N)/(1 + e); friction is free to scale.
-Columns gain(Equation, const Frame& f, const Reference&, Values) {
-  return {-(f.motor_inertia * f.motor_acceleration + f.smooth_torque / f.ratio)};
+Columns gain(Equation, const Frame& f, const Reference& known, Values) {
+  return {-(f.motor_inertia * f.motor_acceleration + smooth_torque(f, known) / f.ratio)};
 }
 
 // What was recorded is the share 1 - a of what there was.

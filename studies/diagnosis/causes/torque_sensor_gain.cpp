@@ -8,9 +8,9 @@ using Values = std::span<const double>;
 
 // The torsion law takes the gain up in f and g^-1; known inertias do not. A share of the measured
 // torque's noise would buy its mean with what another cause says of the same torque.
-Columns gain(Equation equation, const Frame& f, const Reference&, Values) {
+Columns gain(Equation equation, const Frame& f, const Reference& known, Values) {
   if (equation == Equation::load) return {f.load_inertia * f.load_acceleration};
-  return {-f.smooth_torque / f.ratio};
+  return {-smooth_torque(f, known) / f.ratio};
 }
 
 // f and g^-1 were fitted to the torque that was read, larger by the gain. The load's equation tells

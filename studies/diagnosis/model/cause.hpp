@@ -41,11 +41,12 @@ struct Term {
 
 /// What the last fit knows of the baseline's laws along the rows. Nm at the equation's shaft.
 struct Reference {
-  Eigen::ArrayXd elastic;              ///< f(phi)
-  Eigen::ArrayXd dissipative;          ///< g^-1(phi'/h)
-  Eigen::ArrayXd friction;             ///< the same and what causes of the model add to it
-  Eigen::ArrayXd motor_sign;           ///< the motor's dry friction over its largest value
-  Eigen::ArrayXd asked_rate;           ///< rate of the torque that the laws ask of the motor, Nm/s
+  Eigen::ArrayXd elastic;      ///< f(phi)
+  Eigen::ArrayXd dissipative;  ///< g^-1(phi'/h)
+  Eigen::ArrayXd friction;     ///< the same and what causes of the model add to it
+  Eigen::ArrayXd motor_sign;   ///< the motor's dry friction over its largest value
+  Eigen::ArrayXd asked_rate;   ///< rate of the torque that the laws ask of the motor, Nm/s
+  double torque_offset = 0.0;  ///< what causes of the model add to all readings of the torque
   std::vector<SignPart> torsion_sign;  ///< the same across the gear, of phi' (rad/s, m/s)
 };
 
@@ -68,6 +69,7 @@ struct CauseForm {
   bool nonnegative = false;         ///< a_k >= 0
   bool friction = false;            ///< resists the motion across the transmission, beside g^-1
   bool rescales = false;            ///< a channel, by 1 + a or 1 - a, and does nothing else
+  bool offsets_torque = false;      ///< adds its coefficient to all readings of the torque
   bool unbounded = false;           ///< may be most of a torque: nothing that is stated bounds it
   double Frame::*stated = nullptr;  ///< the rig's constant to which the coefficient adds
   bool trails =

@@ -302,6 +302,7 @@ std::optional<CauseRow> cause_by_law(const EffectRow& effect) {
     };
     form.nonnegative = sought.nonnegative();
     form.friction = sought.across() && sought.has(Role::sign_width);
+    form.offsets_torque = effect.site == Site::torque_signal && effect.coordinate == "constant";
     form.extends = place.own_width;
     form.where = [=](const Frame& f) { return sought.can_show(f); };
     form.counterpart = [=](const FittedCause& c) { return sought.counterpart(c); };

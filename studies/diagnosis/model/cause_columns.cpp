@@ -36,6 +36,10 @@ Columns sine_pair(const ArrayXd& x, double order, const ArrayXd& factor) {
   return pair;
 }
 
+ArrayXd smooth_torque(const Frame& frame, const Reference& known) {
+  return frame.smooth_torque - known.torque_offset;
+}
+
 Columns of_torque_signal(Equation equation, const Frame& frame, Columns terms) {
   if (equation != Equation::motor) return terms;
   for (ArrayXd& term : terms) term /= -frame.ratio;

@@ -27,6 +27,9 @@ Columns sine_pair(const Eigen::ArrayXd& x, double order);
 /// and the load equation, -tau/N in the motor's.
 Columns of_torque_signal(Equation equation, const Frame& frame, Columns terms);
 
+/// Of the torque across the gear what is smooth, less the offset of its readings.
+Eigen::ArrayXd smooth_torque(const Frame& frame, const Reference& known);
+
 /// Stop operators (elastic-plastic elements of unit stiffness) along every recording, unloaded at
 /// its start.
 Columns stop_operators(const Frame& frame, const Eigen::ArrayXd& motion,

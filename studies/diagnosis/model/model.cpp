@@ -76,6 +76,14 @@ void take_gear(const Frame& frame, const DriveModel& model, Reference& reference
   }
 }
 
+double torque_offset_of(const DriveModel& model) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < std::min(model.causes.size(), model.coefficients.size()); ++i) {
+    if (model.causes[i].form->offsets_torque) sum += model.coefficients[i].sum();
+  }
+  return sum;
+}
+
 DriveModel without_trailing(DriveModel model) {
   for (std::size_t i = model.causes.size(); i-- > 0;) {
     if (!model.causes[i].form->trails) continue;
@@ -156,6 +164,7 @@ Reference reference_of(const Frame& frame, const DriveModel& model) {
   reference.dissipative = ArrayXd::Zero(frame.rows());
   reference.friction = reference.dissipative;
   reference.motor_sign = motor_sign(frame, model);
+  reference.torque_offset = torque_offset_of(model);
   take_gear(frame, model, reference);
   reference.asked_rate = asked_rate_of(frame, model, reference);
   return reference;
