@@ -48,7 +48,7 @@ TEST(OutsideCauses, OfATorqueSensorAreTheSameReadingInEveryEquation) {
   const std::map<std::string_view, std::vector<double>> shapes = {
       {"torque_sensor_memory", {}},
       {"torque_sensor_curvature", {}},
-      {"torque_resonance", {50.0, 0.1}}};
+      {"torque_resonance", {8.0, 0.1}}};
   for (const auto& [id, shape] : shapes) {
     const CauseForm& form = form_of(id);
     const auto torsion = columns_of(form, Equation::torsion, frame, shape);

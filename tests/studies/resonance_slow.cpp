@@ -21,14 +21,14 @@ Diagnosis diagnosed_case(const char* effect) {
   return diagnosis ? *diagnosis : Diagnosis{};
 }
 
-// 20.96 rad/s and 0.0541 of the critical damping are hidden.
+// 3.335 Hz and 0.0541 of the critical damping are hidden.
 TEST(ToldResonance, IsThatOfAFixture) {
   const Diagnosis d = diagnosed_case("unknown:fixture_resonance");
   EXPECT_EQ(d.verdict, Verdict::unexplained);
   EXPECT_TRUE(d.causes.empty());
   ASSERT_FALSE(d.mismatch.empty());
   EXPECT_EQ(d.mismatch.front().coordinate, "lag");
-  EXPECT_THAT(d.mismatch.front().says, HasSubstr("rings (frequency 21 rad/s, damping 0.05"));
+  EXPECT_THAT(d.mismatch.front().says, HasSubstr("rings (frequency 3.34 Hz, damping 0.05"));
   EXPECT_THAT(d.says, HasSubstr("that rings"));
   EXPECT_LT(d.holdout.over_noise(), 1.05);
 }

@@ -62,19 +62,25 @@ bool is_something(const Selection& s, std::size_t named) {
          std::ranges::any_of(s.accepted, [](const Accepted& a) { return a.material; });
 }
 
-// Beside what is named: whether a table of one or two coordinates follows what is missing better,
-// on recordings held out, than forms that never had a name do. A doubted name says more than a
-// table.
+// On recordings held out, with a table of what the model leaves where there is one.
+double error_with_a_table(const Frame& frame, const Limits& limits, const Selection& s,
+                          const Proof& proof) {
+  const auto table = unnamed_part(frame, s, proof, limits);
+  const bool same = table && table->equation == name_of(equation_to_prove(frame, s));
+  return proof.holdout.rmse_after * (same ? table->holdout_ratio : 1.0);
+}
+
+// Whether a table follows what is missing better than forms that never had a name do. A doubted
+// name says more than a table.
 bool is_told_better_by_table(const Frame& frame, const Limits& limits, const Selection& s,
                              const Proof& proof, const Selection& named,
                              const Proof& proof_of_named) {
   const auto behind = std::span(s.accepted).subspan(named.accepted.size());
   const auto has_a_name = [](const Accepted& a) { return a.trial.cause.row->in_catalogue(); };
   if (std::ranges::any_of(behind, has_a_name)) return false;
-  const auto table = unnamed_part(frame, named, proof_of_named, limits);
-  const Equation equation = equation_to_prove(frame, named);
-  return table && table->equation == name_of(equation) && equation_to_prove(frame, s) == equation &&
-         table->holdout_ratio * proof_of_named.holdout.rmse_after < proof.holdout.rmse_after;
+  return equation_to_prove(frame, s) == equation_to_prove(frame, named) &&
+         error_with_a_table(frame, limits, named, proof_of_named) <
+             error_with_a_table(frame, limits, s, proof);
 }
 
 // What the named causes leave.

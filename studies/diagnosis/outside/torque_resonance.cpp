@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "diagnosis/frame/mode.hpp"
 #include "diagnosis/model/cause_columns.hpp"
 
@@ -8,12 +10,13 @@ using Values = std::span<const double>;
 
 constexpr int kFrequencies = 12;
 constexpr double kLeastDamping = 0.01;
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 std::vector<Shape> frequency_and_damping(const Frame& f) {
   return {{.name = "frequency",
-           .unit = "rad/s",
-           .lower = slowest_mode(f),
-           .upper = fastest_mode(f),
+           .unit = "Hz",
+           .lower = slowest_mode(f) / kTurn,
+           .upper = fastest_mode(f) / kTurn,
            .grid = kFrequencies,
            .meaning = "of the mode"},
           {.name = "damping",
@@ -25,7 +28,7 @@ std::vector<Shape> frequency_and_damping(const Frame& f) {
 
 // Of the torque that the laws ask for, whose noise is in both reading and residual.
 Columns ringing(Equation equation, const Frame& f, const Reference& known, Values shape) {
-  ModeAnswer answer = answer_of(f, known.elastic + known.friction, {shape[0], shape[1]});
+  ModeAnswer answer = answer_of(f, known.elastic + known.friction, {kTurn * shape[0], shape[1]});
   return of_torque_signal(equation, f, {std::move(answer.place), std::move(answer.speed)});
 }
 

@@ -50,16 +50,18 @@ Mismatch explained(const Frame& frame, const Selection& s, const Accepted& a) {
   return m;
 }
 
-// What a form without a name was found to be: nothing else tells it.
+// What a form without a name was found to be: nothing else tells it. In words, where a motion may
+// be an angle or a length, what is measured in neither.
 std::string with_its_shapes(const Frame& frame, const ActiveCause& cause) {
-  if (cause.form->shapes == nullptr) return std::string(cause.row->outside);
   std::vector<std::string> said;
-  const auto shapes = cause.form->shapes(frame);
+  const auto shapes = cause.form->shapes ? cause.form->shapes(frame) : std::vector<Shape>{};
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const std::string_view unit = shapes[i].unit == "1" ? "" : shapes[i].unit;
-    said.push_back(fmt::format("{} {:.3g}{}{}", shapes[i].name, cause.shape[i],
-                               unit.empty() ? "" : " ", unit));
+    const auto& [name, unit] = std::pair(shapes[i].name, shapes[i].unit);
+    if (unit.find("rad") != std::string_view::npos) continue;
+    said.push_back(fmt::format("{} {:.3g}{}{}", name, cause.shape[i], unit == "1" ? "" : " ",
+                               unit == "1" ? "" : unit));
   }
+  if (said.empty()) return std::string(cause.row->outside);
   return fmt::format("{} ({})", cause.row->outside, fmt::join(said, ", "));
 }
 
