@@ -36,7 +36,7 @@ double slowest_mode(const Frame& frame) { return 1.0 / frame.longest_lag(); }
 
 double fastest_mode(const Frame& frame) {
   constexpr double kRowsPerPeriod = 5.0;
-  return 2.0 * std::numbers::pi / (kRowsPerPeriod * frame.interval);
+  return kTurn / (kRowsPerPeriod * frame.interval);
 }
 
 }  // namespace flexspline::studies

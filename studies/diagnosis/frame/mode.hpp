@@ -6,6 +6,7 @@
 
 namespace flexspline::studies {
 
+inline constexpr double kTurn = 2.0 * std::numbers::pi;            ///< rad
 inline constexpr double kMostDamping = 0.5 * std::numbers::sqrt2;  ///< with more it has no peak
 
 /// A mode that rings, q'' + 2 z w q' + w^2 q = w^2 u.

@@ -1,5 +1,3 @@
-#include <numbers>
-
 #include "diagnosis/frame/mode.hpp"
 #include "diagnosis/model/cause_columns.hpp"
 
@@ -10,7 +8,6 @@ using Values = std::span<const double>;
 
 constexpr int kFrequencies = 12;
 constexpr double kLeastDamping = 0.01;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 std::vector<Shape> frequency_and_damping(const Frame& f) {
   return {{.name = "frequency",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,7 +24,6 @@ constexpr std::array<double, 2> kDampings = {0.03, 0.2};  // initial guesses: ri
 // Steps from one guess to the next: of frequency the half-power width of the narrowest.
 constexpr double kOfFrequency = 1.0 + 2.0 * kDampings.front();
 constexpr double kOfDamping = kDampings.back() / kDampings.front();
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kKept = 0.5;     // of a bandwidth: smoothing takes 1/65 of a motion, or less
 constexpr int kHalvings = 5;      // to 0.2 % of a frequency, 6 % of a damping ratio
 constexpr double kAlike = 1e-12;  // one less a squared correlation: rounding
