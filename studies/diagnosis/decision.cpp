@@ -32,11 +32,10 @@ Result<void> prove_once(const RecordingSet& all, const std::vector<std::string>&
 
 // The whole search again in outer folds. Recordings that are too few to be searched without a part
 // of them are no failure.
-void prove_in_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
-                    Decision& d) {
+void prove_in_folds(const Frame& whole, const FoldSearches& searched, Decision& d) {
   const auto& [frame, selection, proof] = d.finding;
-  if (folds.empty() || one_loop(frame)) return;
-  auto nested = nested_proof(whole, folds, equation_to_prove(frame, selection));
+  if (searched.proving.empty() || one_loop(frame)) return;
+  auto nested = nested_proof(whole, searched, equation_to_prove(frame, selection));
   if (!nested) {
     d.notes.push_back(
         fmt::format("nothing is proved in outer folds: {}", nested.error().message()));

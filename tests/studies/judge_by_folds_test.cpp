@@ -40,7 +40,7 @@ TEST_F(JudgeByFolds, AnErrorThatNoFoldLowersLeavesNothingOfAName) {
   ASSERT_LT(evidence().over_noise, 0.8 * evidence().before_over_noise);
   ASSERT_GE(probability_of(found_.proof.causes.front()), limits_.probability);
   const double ratio = evidence().ratio;
-  judge_by_folds(frame_, {fold(false)}, found_);
+  judge_by_folds(frame_, {.proving = {fold(false)}}, found_);
   EXPECT_DOUBLE_EQ(evidence().over_noise, evidence().before_over_noise);
   EXPECT_DOUBLE_EQ(evidence().ratio, ratio) << "no fold says what one cause takes";
   const auto named = with_probable_names(found_, limits_);
@@ -51,7 +51,7 @@ TEST_F(JudgeByFolds, AnErrorThatNoFoldLowersLeavesNothingOfAName) {
 }
 
 TEST_F(JudgeByFolds, TheirErrorsOverTheNoiseAreTaken) {
-  judge_by_folds(frame_, {fold(true)}, found_);
+  judge_by_folds(frame_, {.proving = {fold(true)}}, found_);
   const std::size_t e = index_of(Equation::torsion);
   EXPECT_NEAR(evidence().over_noise / evidence().before_over_noise,
               rms_on(s_.final.fit.residual[e] * s_.final.weight[e], frame_.usable) /
@@ -68,9 +68,11 @@ TEST_F(JudgeByFolds, ANameThatTheyDoNotFindIsNoneOfTheirs) {
   other.found.front().ids = {"something_else"};
   SearchedFold unsure = fold(true);
   unsure.found = {{{"something_else", std::string(kHidden)}, 0.3, false}};
-  judge_by_folds(frame_, {fold(true), other, unsure}, found_);
+  judge_by_folds(frame_, {.proving = {fold(true), other, unsure}}, found_);
   EXPECT_EQ(evidence().in_folds, (std::vector<double>{kSaid, 0.0, 0.3}));
-  judge_by_folds(frame_, {other, other, other}, found_);
+  judge_by_folds(frame_, {.proving = {fold(true)}, .others = {unsure.found, {}}}, found_);
+  EXPECT_EQ(evidence().in_folds, (std::vector<double>{kSaid, 0.3, 0.0})) << "judged or not";
+  judge_by_folds(frame_, {.proving = {other, other, other}}, found_);
   EXPECT_EQ(evidence().in_folds, (std::vector<double>{0.0, 0.0, 0.0})) << "not of before, too";
   const auto named = with_probable_names(found_, limits_);
   ASSERT_TRUE(named) << named.error().message();
@@ -90,10 +92,10 @@ TEST(StabilityOf, IsTheShareOfFoldsThatNameItOrAnAlternative) {
 TEST_F(JudgeByFolds, AFoldThatFailedOrHasNotTheEquationJudgesNothing) {
   const double before = evidence().over_noise;
   judge_by_folds(frame_, {}, found_);
-  judge_by_folds(frame_, {fold(false), failure(ErrorCode::numerics, "too few")}, found_);
+  judge_by_folds(frame_, {.proving = {fold(false), failure(ErrorCode::numerics, "too few")}}, found_);
   SearchedFold without = fold(false);
   without.after[index_of(Equation::torsion)].resize(0);
-  judge_by_folds(frame_, {without}, found_);
+  judge_by_folds(frame_, {.proving = {without}}, found_);
   EXPECT_EQ(evidence().over_noise, before);
 }
 

@@ -30,9 +30,10 @@ TEST(NestedProof, PoolsWhatIsFoundWithEachFoldDeleted) {
   ASSERT_EQ(nested.holdout.folds, static_cast<int>(folds.size()));
   ASSERT_FALSE(nested.causes.empty());
   double before = 0.0, after = 0.0, rows = 0.0, naming = 0.0;
-  for (const Eigen::ArrayXd& fold : folds) {
-    const auto ids = ids_in(*frame, fold);
-    const double count = (fold * frame->usable).sum();
+  for (const OuterFold& fold : folds) {
+    ASSERT_TRUE(fold.proves) << "nothing is marked";
+    const auto ids = ids_in(*frame, fold.rows);
+    const double count = (fold.rows * frame->usable).sum();
     const Diagnosis one = judged(judged_bench(), {.holdout = ids});
     before += count * std::pow(one.holdout.rmse_before, 2);
     after += count * std::pow(one.holdout.rmse_after, 2);

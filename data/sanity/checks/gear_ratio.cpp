@@ -8,6 +8,8 @@
 namespace flexspline::data {
 namespace {
 
+using Eigen::ArrayXd;
+
 constexpr std::string_view kState = "state turns of the motor for one of the output";
 constexpr SanityVerdict kNegative{"check_sign", Severity::error, kState};
 constexpr SanityVerdict kNoReduction{"check_ratio", Severity::error, kState};
@@ -20,13 +22,23 @@ constexpr SanityVerdict kOtherRatio{
 constexpr double kMostOff = 1.15;  // of the ratio: windup and kinematic error are less
 constexpr double kFollows = 0.9;   // of the motor's variance: less, and the load did not follow
 
-/// Slope of the motor's angle over the load's, over the ratio that the set states.
+/// Slope of the motor's angle over the load's, alone or beside the torque that winds the gear up,
+/// whichever is nearer to the ratio: near a resonance the windup is as large as the motion. A
+/// mistaken unit or ratio shows in both.
+Regression slope_of(const Observed& o, double ratio) {
+  const ArrayXd one = ArrayXd::Ones(o.time.size());
+  const Regression alone = regression({o.load_angle, one}, o.motor_angle, o.usable);
+  if (o.effort.size() == 0) return alone;
+  return nearer_to(ratio, alone,
+                   regression({o.load_angle, one, o.effort}, o.motor_angle, o.usable));
+}
+
+/// The slopes over the ratio that the set states.
 std::vector<Factor> slopes(const ObservedSet& all) {
   std::vector<Factor> list;
   for (const Observed& o : all.recordings) {
     if (o.motor_angle.size() == 0 || o.load_angle.size() == 0) continue;
-    const auto fit =
-        regression({o.load_angle, Eigen::ArrayXd::Ones(o.time.size())}, o.motor_angle, o.usable);
+    const Regression fit = slope_of(o, all.constant("gear_ratio"));
     if (fit.explained < kFollows) continue;
     list.push_back({o.recording->id, fit.coefficient[0] / all.constant("gear_ratio")});
   }
@@ -59,7 +71,9 @@ std::vector<SanityFinding> find(const ObservedSet& all) {
   const Agreement agreement = agreement_of(factors, kMostOff);
   if (is_off(agreement.common, kMostOff)) list.push_back(of_slope(all, "", agreement.common));
   for (const Factor& other : agreement.others) {
-    if (is_off(other.value, kMostOff)) list.push_back(of_slope(all, other.recording, other.value));
+    if (is_mistaken_alone(other.value, kMostOff)) {
+      list.push_back(of_slope(all, other.recording, other.value));
+    }
   }
   return list;
 }

@@ -22,6 +22,8 @@ std::vector<double> none(const Frame&) { return {0.0}; }
 void load_late(Frame& f, Values shape) {
   f.torsion -= shape[0] * f.load_speed;
   f.torsion_rate -= shape[0] * f.load_acceleration;
+  f.load_speed += shape[0] * f.load_acceleration;
+  f.load_acceleration = later(f, f.load_acceleration, shape[0]);
 }
 
 Counterpart as_skew(const FittedCause& c) {
@@ -35,7 +37,7 @@ CauseRow describe_encoder_skew() {
           .coordinate = "lag",
           .forms = {{.equation = "theta_l,measured(t) = theta_l(t - d)",
                      .rigs = {Rig::free},
-                     .at = {Equation::torsion},
+                     .at = {Equation::torsion, Equation::load},
                      .shapes = skew,
                      .transform = load_late,
                      .start = none,

@@ -26,11 +26,13 @@ std::vector<Shape> amplitudes(const Frame& f) {
   return shapes;
 }
 
-// phi += sum_k a_k sin(k theta_m) + b_k cos(k theta_m), and its rate. Each order is twice another,
-// so that its sine and cosine follow.
+// phi += e(theta_m), e = sum_k a_k sin(k theta_m) + b_k cos(k theta_m), and its rate; its work is
+// the motor's, which feels tau de/dtheta_m beside tau/N. Each order is twice another, so that its
+// sine and cosine follow.
 void error(Frame& f, Values shape) {
   ArrayXd s = f.motor_angle.sin();
   ArrayXd c = f.motor_angle.cos();
+  ArrayXd slope = ArrayXd::Zero(f.rows());
   double order = 1.0;
   for (const std::size_t i : kByOrder) {
     for (; order < kOrders[i]; order *= 2.0) {
@@ -38,8 +40,10 @@ void error(Frame& f, Values shape) {
       c = 2.0 * c.square() - 1.0;
     }
     f.torsion += shape[2 * i] * s + shape[2 * i + 1] * c;
-    f.torsion_rate += order * f.motor_speed * (shape[2 * i] * c - shape[2 * i + 1] * s);
+    slope += order * (shape[2 * i] * c - shape[2 * i + 1] * s);
   }
+  f.torsion_rate += f.motor_speed * slope;
+  f.motor_torque -= f.smooth_torque * slope;
 }
 
 std::vector<double> start(const Frame& f) {
@@ -85,7 +89,7 @@ CauseRow describe_kinematic_error() {
           .coordinate = "motor_angle",
           .forms = {{.equation = "phi = theta_m/N - theta_l + sum_k e_k sin(k theta_m + p_k)",
                      .rigs = {Rig::free},
-                     .at = {Equation::torsion},
+                     .at = {Equation::torsion, Equation::motor},
                      .shapes = amplitudes,
                      .transform = error,
                      .start = start,

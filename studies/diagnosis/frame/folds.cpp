@@ -57,7 +57,7 @@ std::vector<std::vector<std::size_t>> dealt_out(const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& s = frame.segments[i];
-    if (reaches_furthest(frame, s)) continue;
+    if (s.split == Split::holdout || reaches_furthest(frame, s)) continue;
     const ArrayXd& speed = frame.rig == Rig::free ? frame.load_speed : frame.torsion_rate;
     order.emplace_back(speed.segment(s.first, s.count).abs().maxCoeff(), i);
   }
@@ -83,28 +83,42 @@ ArrayXd ends(const Frame& frame) {
   return rows;
 }
 
-void mask(const Frame& frame, ArrayXd& rows, std::size_t segment) {
-  rows.segment(frame.segments[segment].first, frame.segments[segment].count).setOnes();
+std::vector<ArrayXd> masks(const Frame& frame, const std::vector<std::vector<std::size_t>>& hands) {
+  std::vector<ArrayXd> list;
+  for (const auto& hand : hands) {
+    ArrayXd rows = ArrayXd::Zero(frame.rows());
+    for (std::size_t i : hand)
+      rows.segment(frame.segments[i].first, frame.segments[i].count).setOnes();
+    list.push_back(std::move(rows));
+  }
+  return list;
+}
+
+// The smallest together, until they are as few.
+std::vector<ArrayXd> at_most(std::size_t most, std::vector<ArrayXd> folds) {
+  while (folds.size() > most) {
+    const ArrayXd last = folds.back();
+    folds.pop_back();
+    const auto least =
+        std::ranges::min_element(folds, {}, [](const ArrayXd& f) { return f.sum(); });
+    *least = least->max(last);
+  }
+  return folds;
 }
 
 }  // namespace
 
 std::vector<ArrayXd> folds_of(const Frame& frame) {
-  const ArrayXd none = ArrayXd::Zero(frame.rows());
-  std::vector<ArrayXd> folds;
   if (marked(frame)) {
-    folds.push_back(none);
+    std::vector<std::size_t> held;
     for (std::size_t i = 0; i < frame.segments.size(); ++i) {
-      if (frame.segments[i].split == Split::holdout) mask(frame, folds.back(), i);
+      if (frame.segments[i].split == Split::holdout) held.push_back(i);
     }
-    return folds;
+    return masks(frame, {held});
   }
-  for (const auto& hand : dealt_out(frame)) {
-    folds.push_back(none);
-    for (std::size_t i : hand) mask(frame, folds.back(), i);
-  }
-  if (!folds.empty()) return folds;
-  return {ends(frame)};
+  auto folds = masks(frame, dealt_out(frame));
+  if (folds.empty()) folds.push_back(ends(frame));
+  return folds;
 }
 
 ArrayXd held_out(const Frame& frame) {
@@ -113,15 +127,14 @@ ArrayXd held_out(const Frame& frame) {
   return rows;
 }
 
-std::vector<ArrayXd> outer_folds(const Frame& frame) {
-  std::vector<ArrayXd> folds = folds_of(frame);
-  while (folds.size() > kMostOuterFolds) {
-    const ArrayXd last = folds.back();
-    folds.pop_back();
-    const auto least =
-        std::ranges::min_element(folds, {}, [](const ArrayXd& f) { return f.sum(); });
-    *least = least->max(last);
-  }
+std::vector<OuterFold> outer_folds(const Frame& frame) {
+  std::vector<OuterFold> folds;
+  const auto add = [&](std::vector<ArrayXd> more, bool proves) {
+    for (ArrayXd& rows : at_most(kMostOuterFolds - folds.size(), std::move(more)))
+      folds.push_back({std::move(rows), proves});
+  };
+  add(folds_of(frame), true);
+  if (marked(frame)) add(masks(frame, dealt_out(frame)), false);
   return folds;
 }
 

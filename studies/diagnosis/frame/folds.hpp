@@ -19,8 +19,16 @@ std::vector<Eigen::ArrayXd> folds_of(const Frame& frame);
 /// All rows that are held out in some fold.
 Eigen::ArrayXd held_out(const Frame& frame);
 
-/// The same rows in three folds at most, for what is dear to do in each.
-std::vector<Eigen::ArrayXd> outer_folds(const Frame& frame);
+/// Rows without which the whole search is done once more.
+struct OuterFold {
+  Eigen::ArrayXd rows;
+  bool proves = true;  ///< they are judged; else the search without them only has a say in names
+};
+
+/// The same rows in three folds at most, for what is dear to do in each. Where the data set marks
+/// what is held out, which is one fold, recordings that it does not mark, dealt out as they would
+/// be without marks, make up the rest: what a name hangs on is not what somebody has marked.
+std::vector<OuterFold> outer_folds(const Frame& frame);
 
 /// The recordings without the rows of a fold, as if these were not there: whole ones are gone, of
 /// others the end.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnosis/frame/baseline.hpp"
+#include "flexspline/core/effect.hpp"
 #include "flexspline/core/rig.hpp"
 
 namespace flexspline::studies {
@@ -136,6 +137,38 @@ void mark_origin(const Frame& frame, RigModel& model) {
   if (!frame.has(Equation::torsion)) return;
   origin["f"] = origin["g_inverse"] = Origin::fitted;
   origin["h"] = model.drive.torsion.h.coefficients.empty() ? Origin::assumed : Origin::fitted;
+}
+
+void take_gain(const EffectSpec& effect, TorqueGains& gains) {
+  if (effect.effect == "torque_constant_error")
+    gains.motor *= 1.0 + effect.parameters.front().second;
+  if (effect.effect == "torque_sensor_gain") gains.sensor /= 1.0 + effect.parameters.front().second;
+}
+
+bool of_torque_sensor(const Counterpart& counterpart) {
+  return std::ranges::any_of(counterpart.effects, [](const EffectSpec& effect) {
+    const auto row = find_effect(effect.effect);
+    return row && (*row)->site == Site::torque_signal;
+  });
+}
+
+VectorXd catalogued_coefficients(const Frame& frame, const DriveModel& model, std::size_t cause,
+                                 const Reference& reference) {
+  const auto counterpart_of = [&](std::size_t i) {
+    const ActiveCause& one = model.causes[i];
+    if (one.form->counterpart == nullptr) return Counterpart{};
+    return one.form->counterpart(
+        {frame, one.shape, model.coefficients[i], {}, reference.torsion_sign});
+  };
+  const ActiveCause& one = model.causes[cause];
+  const VectorXd& fitted = model.coefficients[cause];
+  if (one.form->rescales || of_torque_sensor(counterpart_of(cause))) return fitted;
+  RigConstants constants;
+  for (std::size_t i = 0; i < model.causes.size(); ++i) {
+    if (!model.causes[i].form->rescales) continue;
+    for (const EffectSpec& effect : counterpart_of(i).effects) take_gain(effect, constants.gains);
+  }
+  return constants.in_torque(frame, one, first_equation(frame, *one.form), fitted, reference);
 }
 
 // A column that grows with the torque that was read needs no factor, one that does not needs it

@@ -24,6 +24,17 @@ struct RigConstants {
                             const Eigen::VectorXd& coefficients, const Reference& reference) const;
 };
 
+/// Takes the gain that an effect of the catalogue tells.
+void take_gain(const EffectSpec& effect, TorqueGains& gains);
+
+/// What a sensor adds to the torque that it reads is in the torque that is read.
+bool of_torque_sensor(const Counterpart& counterpart);
+
+/// A cause's coefficients as the catalogue means them: in true torques, where another cause of the
+/// model tells a gain. Of a sensor's, and of what tells a gain, as they were fitted.
+Eigen::VectorXd catalogued_coefficients(const Frame& frame, const DriveModel& model,
+                                        std::size_t cause, const Reference& reference);
+
 /// gains: by causes of the model; a servo's motor has its own.
 RigConstants rig_constants(const Frame& frame, const DriveModel& model, TorqueGains gains);
 

@@ -122,14 +122,6 @@ class Specifier {
         {seen_, cause.shape, coefficients, sign_, reference_.torsion_sign, slipping_});
   }
 
-  /// What a sensor adds to the torque that it reads is in the torque that is read.
-  static bool of_torque_sensor(const Counterpart& counterpart) {
-    return std::ranges::any_of(counterpart.effects, [](const EffectSpec& effect) {
-      const auto row = find_effect(effect.effect);
-      return row && (*row)->site == Site::torque_signal;
-    });
-  }
-
   /// Of the causes that correct a torque's gain, among those that stand in the file.
   TorqueGains gains_of(const std::vector<std::size_t>& taken) const {
     TorqueGains gains;
@@ -139,9 +131,7 @@ class Specifier {
       const Counterpart counterpart = counterpart_of(cause, model_.coefficients[i]);
       for (const EffectSpec& effect : counterpart.effects) {
         if (!out_of_range(effect).empty()) continue;
-        const double factor = 1.0 + effect.parameters.front().second;
-        if (effect.effect == "torque_constant_error") gains.motor *= factor;
-        if (effect.effect == "torque_sensor_gain") gains.sensor /= factor;
+        take_gain(effect, gains);
       }
     }
     return gains;

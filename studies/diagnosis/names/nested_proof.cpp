@@ -61,29 +61,33 @@ bool shares_a_name(const FoundCause& found, const std::vector<std::string>& ids)
   return std::ranges::find_first_of(found.ids, ids) != found.ids.end();
 }
 
-double probability_in(const SearchedFold& fold, const std::vector<std::string>& ids) {
+double probability_in(const std::vector<FoundCause>& found, const std::vector<std::string>& ids) {
   double most = 0.0;
-  for (const FoundCause& one : fold.found) {
+  for (const FoundCause& one : found) {
     if (shares_a_name(one, ids)) most = std::max(most, one.probability);
   }
   return most;
 }
 
 Result<SearchedFold> search_without(const RecordingSet& all, const Frame& whole,
-                                    const ArrayXd& fold, const Limits& limits, Index most_rows,
+                                    const OuterFold& fold, const Limits& limits, Index most_rows,
                                     const DiagnosisProgress& progress) {
-  auto frame = make_frame(without_rows(all, whole, fold), most_rows);
+  auto frame = make_frame(without_rows(all, whole, fold.rows), most_rows);
   if (!frame) return tl::unexpected(frame.error());
   const auto finding =
       find_causes(std::move(*frame), limits, progress).and_then([&](Finding&& found) {
         return with_probable_names(std::move(found), limits);
       });
   if (!finding) return tl::unexpected(finding.error());
-  auto judged = judge(whole, fold, *finding);
+  SearchedFold searched{.found = found_by(finding->selection)};
+  if (!fold.proves) return searched;
+  auto judged = judge(whole, fold.rows, *finding);
   if (!judged) return tl::unexpected(judged.error());
-  return SearchedFold{std::move(judged->held), std::move(judged->before.residual),
-                      std::move(judged->after.residual), std::move(judged->of_motion),
-                      found_by(finding->selection)};
+  searched.held = std::move(judged->held);
+  searched.before = std::move(judged->before.residual);
+  searched.after = std::move(judged->after.residual);
+  searched.of_motion = std::move(judged->of_motion);
+  return searched;
 }
 
 /// Rows of all folds, and their residuals.
@@ -119,24 +123,31 @@ Pooled pooled(const Frame& whole, const std::vector<Result<SearchedFold>>& folds
 
 Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, const Limits& limits,
                     Index most_rows, const DiagnosisProgress& progress) {
-  const auto folds = nested ? outer_folds(whole) : std::vector<ArrayXd>{};
+  const auto folds = nested ? outer_folds(whole) : std::vector<OuterFold>{};
   Searches searches;
-  searches.folds.resize(folds.size(), failure(ErrorCode::numerics, "nothing was searched"));
+  std::vector<Result<SearchedFold>> found(folds.size(),
+                                          failure(ErrorCode::numerics, "nothing was searched"));
   JointProgress steps(progress, 1 + folds.size());
-  in_parallel(1 + folds.size(), std::min(kMostAtOnce, threads_for(limits.threads)),
-              [&](std::size_t k) {
-                if (k == 0) {
-                  searches.finding = find_causes(whole, limits, steps.of(0));
-                } else {
-                  searches.folds[k - 1] =
-                      search_without(all, whole, folds[k - 1], limits, most_rows, steps.of(k));
-                }
-              });
+  in_parallel(
+      1 + folds.size(), std::min(kMostAtOnce, threads_for(limits.threads)), [&](std::size_t k) {
+        if (k == 0) {
+          searches.finding = find_causes(whole, limits, steps.of(0));
+        } else {
+          found[k - 1] = search_without(all, whole, folds[k - 1], limits, most_rows, steps.of(k));
+        }
+      });
+  for (std::size_t k = 0; k < folds.size(); ++k) {
+    if (folds[k].proves) {
+      searches.folds.proving.push_back(std::move(found[k]));
+    } else if (found[k]) {
+      searches.folds.others.push_back(std::move(found[k]->found));
+    }
+  }
   return searches;
 }
 
-void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
-                    Finding& finding) {
+void judge_by_folds(const Frame& whole, const FoldSearches& searched, Finding& finding) {
+  const auto& folds = searched.proving;
   const auto& [frame, selection, proof] = finding;
   if (folds.empty() || !std::ranges::all_of(folds, &Result<SearchedFold>::has_value)) return;
   const Pooled pool = pooled(whole, folds);
@@ -153,14 +164,16 @@ void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>&
     take_errors(frame, selection.final, form, pool.before, pool.after, held, name);
     const auto ids = ids_of(selection.accepted[i], selection);
     name.in_folds.clear();
-    for (const auto& fold : folds) name.in_folds.push_back(probability_in(*fold, ids));
+    for (const auto& fold : folds) name.in_folds.push_back(probability_in(fold->found, ids));
+    for (const auto& found : searched.others) name.in_folds.push_back(probability_in(found, ids));
   }
 }
 
-Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+Result<NestedProof> nested_proof(const Frame& whole, const FoldSearches& searched,
                                  Equation equation) {
+  const auto& folds = searched.proving;
   const std::size_t e = index_of(equation);
-  NestedProof nested;
+  NestedProof nested{.found = searched.others};
   for (const auto& fold : folds) {
     if (!fold) return tl::unexpected(fold.error());
     if (!has(*fold, equation)) {

@@ -11,7 +11,7 @@ struct FoundCause {
   bool named = false;
 };
 
-/// What the whole search finds without one outer fold, and leaves of it.
+/// What the whole search finds without one outer fold, and leaves of it where the fold proves.
 struct SearchedFold {
   Eigen::ArrayXd held;        ///< 1 in each usable row of the fold
   PerEquation before, after;  ///< residuals of the baseline and of what was found
@@ -19,10 +19,15 @@ struct SearchedFold {
   std::vector<FoundCause> found;
 };
 
-/// The search in all recordings, and without each outer fold.
+/// The searches without each outer fold.
+struct FoldSearches {
+  std::vector<Result<SearchedFold>> proving;    ///< one a fold that is judged
+  std::vector<std::vector<FoundCause>> others;  ///< without each other fold that can be missed
+};
+
 struct Searches {
   Result<Finding> finding = failure(ErrorCode::numerics, "nothing was searched");
-  std::vector<Result<SearchedFold>> folds;
+  FoldSearches folds;
 };
 
 /// The search in `whole`, the frame of all recordings; where nested the whole search, zeros, gap,
@@ -37,17 +42,16 @@ Searches search_all(const RecordingSet& all, const Frame& whole, bool nested, co
 /// (NameEvidence), in place of those of causes that were chosen with these rows in view, and what
 /// the folds' own searches say of these names. Where a fold lacks one of a cause's equations its
 /// evidence stays; where a fold failed all does.
-void judge_by_folds(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
-                    Finding& finding);
+void judge_by_folds(const Frame& whole, const FoldSearches& searched, Finding& finding);
 
 /// What the folds prove together.
 struct NestedProof {
   HoldoutProof proof;
-  std::vector<std::vector<FoundCause>> found;  ///< by outer fold
+  std::vector<std::vector<FoundCause>> found;  ///< without each outer fold
 };
 
 /// In one equation. Errors: those of the folds; numerics, where one of them has no such equation.
-Result<NestedProof> nested_proof(const Frame& whole, const std::vector<Result<SearchedFold>>& folds,
+Result<NestedProof> nested_proof(const Frame& whole, const FoldSearches& searched,
                                  Equation equation);
 
 /// Share of the folds that name a cause or one of its alternatives.

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "diagnosis/model/cause_columns.hpp"
+#include "diagnosis/model/rig_constants.hpp"
 
 namespace flexspline::studies {
 namespace {
@@ -16,6 +17,7 @@ using Eigen::Index;
 
 constexpr double kNormal95 = 1.959964;
 constexpr double kShapeStep = 1e-4;  // of a shape's range, or of its value
+constexpr double kGainStep = 1e-5;   // of a torque, for a gain's share
 constexpr double kUntold = 1e-10;    // eigenvalue of a correlation that says nothing
 
 std::vector<Shape> shapes_of(const ActiveCause& cause, const Frame& frame) {
@@ -163,24 +165,48 @@ std::pair<double, double> CauseSpread::bounds_of(const Free& parameter) const {
   return {shape.lower, shape.upper};
 }
 
-void CauseSpread::attach_spread(bool shape, std::size_t cause, Index index,
-                                CauseParameter& p) const {
+std::optional<std::size_t> CauseSpread::find(bool shape, std::size_t cause, Index index) const {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const Free& f = free_[k];
-    if (f.baseline || f.shape != shape || f.cause != cause || f.index != index) continue;
-    const Spread spread =
-        spread_of(Eigen::VectorXd::Unit(std::ssize(free_), static_cast<Index>(k)));
-    p.std = spread.std;
-    if (std::isfinite(p.std)) {
-      const auto [lower, upper] = bounds_of(f);
-      p.ci95_lower = std::max(p.value - spread.half, lower);
-      p.ci95_upper = std::min(p.value + spread.half, upper);
-    } else {
-      p.no_interval = "not identifiable beside the others on these recordings";
-    }
+    if (!f.baseline && f.shape == shape && f.cause == cause && f.index == index) return k;
+  }
+  return std::nullopt;
+}
+
+void CauseSpread::attach_spread(std::optional<std::size_t> at, const Eigen::VectorXd& slopes,
+                                CauseParameter& p) const {
+  if (!at) {
+    p.no_interval = "it is at an end of its range";
     return;
   }
-  p.no_interval = "it is at an end of its range";
+  const Spread spread = spread_of(slopes);
+  p.std = spread.std;
+  if (std::isfinite(p.std)) {
+    const auto [lower, upper] = bounds_of(free_[*at]);
+    p.ci95_lower = std::max(p.value - spread.half, lower);
+    p.ci95_upper = std::min(p.value + spread.half, upper);
+  } else {
+    p.no_interval = "not identifiable beside the others on these recordings";
+  }
+}
+
+CauseSpread::Catalogued CauseSpread::catalogued(std::size_t cause) const {
+  const DriveModel& model = findings_.fit.model;
+  const auto in = [&](const DriveModel& other) {
+    return catalogued_coefficients(frame_, other, cause, findings_.reference);
+  };
+  Catalogued told{in(model), {}};
+  told.slopes = Eigen::MatrixXd::Zero(std::ssize(free_), told.value.size());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    Free f = free_[k];
+    if (f.baseline || f.shape) continue;
+    if (f.cause != cause) {
+      if (!model.causes[f.cause].form->rescales) continue;
+      f.step = kGainStep;
+    }
+    told.slopes.row(static_cast<Index>(k)) = (in(moved(f)) - told.value).transpose() / f.step;
+  }
+  return told;
 }
 
 std::vector<CauseParameter> CauseSpread::parameters(std::size_t cause) const {
@@ -188,23 +214,28 @@ std::vector<CauseParameter> CauseSpread::parameters(std::size_t cause) const {
   const ActiveCause& active = model.causes[cause];
   std::vector<CauseParameter> list;
   const auto shapes = shapes_of(active, frame_);
+  const auto unit = [&](std::size_t at) -> Eigen::VectorXd {
+    return Eigen::VectorXd::Unit(std::ssize(free_), static_cast<Index>(at));
+  };
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (active.shape[k] == 0.0) continue;
     CauseParameter p{std::string(shapes[k].name), active.shape[k], kNotComputed,
                      std::string(shapes[k].unit)};
     p.meaning = shapes[k].meaning;
-    attach_spread(true, cause, static_cast<Index>(k), p);
+    const auto at = find(true, cause, static_cast<Index>(k));
+    attach_spread(at, at ? unit(*at) : Eigen::VectorXd(), p);
     if (shapes[k].discrete) p.no_interval = "a whole number that was tried, not fitted";
     list.push_back(std::move(p));
   }
-  const Eigen::VectorXd& a = model.coefficients[cause];
+  const Catalogued told = catalogued(cause);
+  const Eigen::VectorXd& a = told.value;
   const auto terms = terms_of(active, frame_, a.size());
   for (Index k = 0; k < a.size(); ++k) {
     const Term& term = terms[static_cast<std::size_t>(k)];
     if (a[k] == 0.0) continue;
     CauseParameter p{term.name, a[k], kNotComputed, term.unit};
     p.meaning = term.meaning;
-    attach_spread(false, cause, k, p);
+    attach_spread(find(false, cause, k), told.slopes.col(k), p);
     list.push_back(std::move(p));
     if (term.grid_name.empty()) continue;
     CauseParameter grid{term.grid_name, term.grid_value, kNotComputed, term.grid_unit};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,8 +55,18 @@ class CauseSpread {
   Spread spread_of(const Eigen::VectorXd& slopes) const;
   /// Where it may be.
   std::pair<double, double> bounds_of(const Free& parameter) const;
-  void attach_spread(bool shape, std::size_t cause, Eigen::Index index,
+  /// Which free parameter it is; none: it is held.
+  std::optional<std::size_t> find(bool shape, std::size_t cause, Eigen::Index index) const;
+  /// at: the free parameter within whose bounds it stays; slopes: of the parameter by the free
+  /// ones.
+  void attach_spread(std::optional<std::size_t> at, const Eigen::VectorXd& slopes,
                      CauseParameter& parameter) const;
+  /// Coefficients of a cause as the catalogue means them, and how they go with the free parameters.
+  struct Catalogued {
+    Eigen::VectorXd value;
+    Eigen::MatrixXd slopes;  ///< free parameters by coefficients
+  };
+  Catalogued catalogued(std::size_t cause) const;
 
   const Frame& frame_;
   const Findings& findings_;
