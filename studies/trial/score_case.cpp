@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <string_view>
 
 #include "flexspline/studies/trial.hpp"
 
@@ -71,17 +73,45 @@ bool is_left(Verdict verdict) {
   return verdict == Verdict::unexplained || verdict == Verdict::partly_explained;
 }
 
-/// Intervals of the parameters that a right cause and the truth have in common.
+const CauseParameter* parameter_of(const Cause& cause, std::string_view name) {
+  const auto found = std::ranges::find(cause.parameters, name, &CauseParameter::name);
+  return found == cause.parameters.end() || !std::isfinite(found->std) ? nullptr : &*found;
+}
+
+/// Of what a cause has as a sine and a cosine, "sine_2": the amplitude, "amplitude_order_2", and
+/// its interval, sine and cosine apart.
+std::optional<CauseParameter> amplitude_of(const Cause& cause, const std::string& name) {
+  constexpr std::string_view kAmplitude = "amplitude";
+  if (!name.starts_with(kAmplitude)) return std::nullopt;
+  std::string order = name.substr(kAmplitude.size());
+  if (order.starts_with("_order")) order.erase(0, std::string_view("_order").size());
+  const CauseParameter* const sine = parameter_of(cause, "sine" + order);
+  const CauseParameter* const cosine = parameter_of(cause, "cosine" + order);
+  if (sine == nullptr || cosine == nullptr) return std::nullopt;
+  CauseParameter amplitude = *sine;
+  amplitude.name = name;
+  amplitude.value = std::hypot(sine->value, cosine->value);
+  const auto half = [&](const CauseParameter& p) {
+    return 0.5 * (p.ci95_upper - p.ci95_lower) * p.value / amplitude.value;
+  };
+  const double spread = std::hypot(half(*sine), half(*cosine));
+  amplitude.ci95_lower = amplitude.value - spread;
+  amplitude.ci95_upper = amplitude.value + spread;
+  return amplitude;
+}
+
+/// Intervals of the parameters that a right cause and the truth have in common, by name and unit.
 void score_intervals(const ConcealedAnswer& answer, const Cause& cause, CaseScore& score) {
   for (const data::HiddenFinding& effect : answer.effects) {
     if (effect.id != cause.effect) continue;
-    for (const CauseParameter& found : cause.parameters) {
-      const std::string key = key_of({found.name, found.value, found.unit});
-      const auto truth = std::ranges::find(effect.parameters, key,
-                                           [](const auto& parameter) { return key_of(parameter); });
-      if (truth == effect.parameters.end() || !std::isfinite(found.std)) continue;
-      score.intervals.push_back({effect.id + " " + key, found.ci95_lower, found.ci95_upper,
-                                 std::copysign(truth->value, found.value)});
+    for (const data::HiddenParameter& truth : effect.parameters) {
+      std::optional<CauseParameter> found = amplitude_of(cause, truth.name);
+      if (const CauseParameter* same = parameter_of(cause, truth.name); !found && same)
+        found = *same;
+      const std::string key = key_of(truth);
+      if (!found || key_of({found->name, found->value, found->unit}) != key) continue;
+      score.intervals.push_back({effect.id + " " + key, found->ci95_lower, found->ci95_upper,
+                                 std::copysign(truth.value, found->value)});
     }
   }
 }

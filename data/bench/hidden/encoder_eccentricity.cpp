@@ -7,7 +7,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const double error = 0.3 * amount * scale.torsion * scale.gear->gear_ratio;
   const double phase = scale.draw("encoder_eccentricity", 0, 0.0, 6.2);
   HiddenLaw law;
-  law.parameters = {{"amplitude", error, "rad"}};
+  law.parameters = {{"amplitude_at_motor", error, "rad"}};
   law.sensing = [=](HiddenSignals& s) {
     for (double& angle : s.motor_angle)
       angle += error * (std::sin(angle + phase) - std::sin(phase));

@@ -8,7 +8,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const double width = 0.03 * scale.motor_speed;
   const double corner = 0.01 * scale.torque;
   HiddenLaw law;
-  law.parameters = {{"coefficient", share * scale.gear->gear_ratio, ""}};
+  law.parameters = {{"coefficient", share * scale.gear->gear_ratio, "1"}};
   law.motor = [=](const MotorPoint& x) {
     const double load = std::sqrt(x.torque * x.torque + corner * corner);
     return share * load * soft_sign(x.velocity, width);

@@ -8,7 +8,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const double share = 0.5 * amount;
   const double phase = scale.draw("motor_torque_ripple", 0, 0.0, 6.2);
   HiddenLaw law;
-  law.parameters = {{"cogging", ripple, "Nm"}, {"ripple_share", share, ""}};
+  law.parameters = {{"amplitude", ripple, "Nm"}, {"ripple_share", share, ""}};
   law.motor = [=](const MotorPoint& x) {
     return ripple * std::sin(4.0 * x.angle) + share * x.drive * std::sin(6.0 * x.angle + phase);
   };

@@ -8,7 +8,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const double width = 0.03 * scale.friction_speed();
   const double time = scale.draw("thermal_friction_drift", 0, 0.25, 0.5) * scale.clock_end;
   HiddenLaw law;
-  law.parameters = {{"cold_friction", cold, "Nm"}, {"warm_up_time", time, "s"}};
+  law.parameters = {{"cold_friction", cold, "Nm"}, {"time_constant", time, "s"}};
   put_friction(law, scale, [=](double speed, double clock) {
     return cold * std::exp(-clock / time) * soft_sign(speed, width);
   });

@@ -5,7 +5,7 @@ namespace {
 
 HiddenLaw make(const HiddenScale& scale, double amount) {
   HiddenLaw law;
-  law.parameters = {{"scale_error", amount, ""}};
+  law.parameters = {{"error", 1.0 / (1.0 + amount) - 1.0, "1"}};
   static_cast<void>(scale);
   law.sensing = [=](HiddenSignals& s) {
     for (double& torque : s.motor_torque) torque *= 1.0 + amount;

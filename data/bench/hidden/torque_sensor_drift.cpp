@@ -7,7 +7,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   const double drift = amount * scale.torque;
   const double time = scale.draw("torque_sensor_drift", 0, 0.3, 1.0) * scale.clock_end;
   HiddenLaw law;
-  law.parameters = {{"final_offset", drift, "Nm"}, {"time", time, "s"}};
+  law.parameters = {{"settling", drift, "Nm"}, {"time_constant", time, "s"}};
   law.sensing = [=](HiddenSignals& s) {
     for (std::size_t k = 0; k < s.size(); ++k) {
       s.torque[k] -= drift * std::expm1(-s.clock(k) / time);

@@ -5,7 +5,7 @@ namespace {
 
 HiddenLaw make(const HiddenScale& scale, double amount) {
   HiddenLaw law;
-  law.parameters = {{"gain_error", amount, ""}};
+  law.parameters = {{"error", amount, "1"}};
   static_cast<void>(scale);
   law.sensing = [=](HiddenSignals& s) {
     for (double& torque : s.torque) torque *= 1.0 + amount;

@@ -32,7 +32,7 @@ HiddenLaw make(const HiddenScale& scale, double amount) {
   branches->stiffness = {0.35 * stiffness, 0.4 * stiffness, 0.25 * stiffness};
   branches->time = {slow / 5.0, slow, slow * 5.0};
   HiddenLaw law;
-  law.parameters = {{"stiffness", stiffness, "Nm/rad"}, {"middle_time", slow, "s"}};
+  law.parameters = {{"sum_of_stiffnesses", stiffness, "Nm/rad"}, {"middle_time", slow, "s"}};
   law.transmission = [branches](const TorsionPoint& x) {
     double sum = 0.0;
     for (const double q : branches->after(x)) sum += q;

@@ -98,7 +98,7 @@ export const effects = {
       const cold = size * peak.motorTorque;
       const time = between(seed, "warm-up", 0.25, 0.5) * peak.clock;
       return {
-        info: { cold_friction_Nm: cold, warm_up_time_s: time },
+        info: { cold_friction_Nm: cold, time_constant_s: time },
         friction: (torque, clock) => 1 + (cold / drive.motorFriction) * Math.exp(-clock / time),
       };
     },

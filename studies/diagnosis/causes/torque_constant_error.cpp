@@ -18,7 +18,7 @@ Counterpart as_error(const FittedCause& c) {
 }
 
 std::vector<Term> terms(const Frame&) {
-  return {{"share", "1", "share of the motor torque that was not recorded"}};
+  return {{"error", "1", "share by which the motor torque is more than recorded"}};
 }
 
 }  // namespace

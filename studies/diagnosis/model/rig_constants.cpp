@@ -162,7 +162,10 @@ VectorXd catalogued_coefficients(const Frame& frame, const DriveModel& model, st
   };
   const ActiveCause& one = model.causes[cause];
   const VectorXd& fitted = model.coefficients[cause];
-  if (one.form->rescales || of_torque_sensor(counterpart_of(cause))) return fitted;
+  const Counterpart own = counterpart_of(cause);
+  if (one.form->rescales && !own.effects.empty())
+    return VectorXd::Constant(1, own.effects.front().parameters.front().second);
+  if (one.form->rescales || of_torque_sensor(own)) return fitted;
   RigConstants constants;
   for (std::size_t i = 0; i < model.causes.size(); ++i) {
     if (!model.causes[i].form->rescales) continue;

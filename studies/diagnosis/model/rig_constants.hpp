@@ -30,8 +30,9 @@ void take_gain(const EffectSpec& effect, TorqueGains& gains);
 /// What a sensor adds to the torque that it reads is in the torque that is read.
 bool of_torque_sensor(const Counterpart& counterpart);
 
-/// A cause's coefficients as the catalogue means them: in true torques, where another cause of the
-/// model tells a gain. Of a sensor's, and of what tells a gain, as they were fitted.
+/// A cause's coefficients as the catalogue means them: of a cause that rescales a torque the
+/// catalogue's parameter, of others in true torques where one of the model does, but for what a
+/// sensor adds to its readings.
 Eigen::VectorXd catalogued_coefficients(const Frame& frame, const DriveModel& model,
                                         std::size_t cause, const Reference& reference);
 

@@ -200,10 +200,9 @@ CauseSpread::Catalogued CauseSpread::catalogued(std::size_t cause) const {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     Free f = free_[k];
     if (f.baseline || f.shape) continue;
-    if (f.cause != cause) {
-      if (!model.causes[f.cause].form->rescales) continue;
-      f.step = kGainStep;
-    }
+    const bool rescales = model.causes[f.cause].form->rescales;
+    if (f.cause != cause && !rescales) continue;
+    if (rescales) f.step = kGainStep;
     told.slopes.row(static_cast<Index>(k)) = (in(moved(f)) - told.value).transpose() / f.step;
   }
   return told;
