@@ -97,7 +97,7 @@ TEST(HeldOut, OfAnAngleThatTravelsWhatTheRestReachesOnThatSide) {
 }
 
 // Nine recordings, the first of which reaches furthest in everything.
-TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
+Frame nine_recordings() {
   Frame f = closed_form_frame(9000);
   f.segments.clear();
   for (Index k = 0; k < 9; ++k) f.segments.push_back({"r", 1000 * k, 1000, Split::unassigned});
@@ -105,6 +105,28 @@ TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
     *x = ArrayXd::Ones(9000) * 0.5;
     x->head(1000).setOnes();
   }
+  return f;
+}
+
+// The marked fold is judged; names have the others, too, which a set without marks would have.
+TEST(OuterFolds, OfMarkedRecordingsAreAsManyAsOfOthers) {
+  Frame f = nine_recordings();
+  ASSERT_EQ(outer_folds(f).size(), 3U);
+  for (const OuterFold& fold : outer_folds(f)) EXPECT_TRUE(fold.proves);
+  f.segments.back().split = Split::holdout;
+  const auto folds = outer_folds(f);
+  ASSERT_EQ(folds.size(), 3U);
+  EXPECT_TRUE(folds[0].proves);
+  EXPECT_EQ(folds[0].rows.sum(), 1000.0);
+  EXPECT_EQ(folds[0].rows.tail(1000).minCoeff(), 1.0);
+  const ArrayXd others = folds[1].rows + folds[2].rows;
+  EXPECT_FALSE(folds[1].proves || folds[2].proves);
+  EXPECT_EQ(others.segment(1000, 7000).minCoeff(), 1.0);
+  EXPECT_EQ(others.sum(), 7000.0) << "neither the marked one nor what reaches furthest";
+}
+
+TEST(HeldOut, WithoutMarksEveryOtherRecordingInOneFold) {
+  const Frame f = nine_recordings();
   const auto folds = folds_of(f);
   ASSERT_EQ(folds.size(), 3U);  // eight recordings, a third of nine at most in each
   ArrayXd times = ArrayXd::Zero(9000);

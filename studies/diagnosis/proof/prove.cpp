@@ -132,16 +132,17 @@ void take_fold(const Frame& frame, const Selection& s, const ArrayXd& out, const
   pool.train_rows += train.sum();
 }
 
-/// Chi square of held-out rows in the equations that a cause acts on, over the noise's colour.
+/// Chi square of held-out rows in some equations, over the noise's colour.
 struct HeldOutMisfit {
   double chi_square = 0.0;
   double noise = 0.0;  ///< what is expected of noise alone
 };
 
-HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const CauseForm& form,
-                        const PerEquation& residual, const ArrayXd& held) {
+HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings,
+                        const std::vector<Equation>& equations, const PerEquation& residual,
+                        const ArrayXd& held) {
   HeldOutMisfit misfit;
-  for (Equation equation : form.at) {
+  for (Equation equation : equations) {
     if (!frame.has(equation)) continue;
     const std::size_t e = index_of(equation);
     const EquationNoise& noise = findings.noise[e];
@@ -153,13 +154,15 @@ HeldOutMisfit misfit_of(const Frame& frame, const Findings& findings, const Caus
 }
 
 // Of two that take each other back either is missed beside the other, and both are not: no cause
-// helps by more than all of them do.
+// helps by more than all of them do. What a cause takes off one that acts elsewhere, too, is seen
+// there: its gain is read in all equations that the two tie together.
 void prove_causes(const Frame& frame, const Selection& s, const HeldOut& pool, const ArrayXd& held,
                   Proof& proof) {
   for (std::size_t i = 0; i < s.accepted.size(); ++i) {
     const CauseForm& form = *s.accepted[i].trial.cause.form;
+    const auto linked = linked_equations(frame, s.final.fit.model.causes, form);
     const auto of = [&](const PerEquation& residual) {
-      return misfit_of(frame, s.final, form, residual, held);
+      return misfit_of(frame, s.final, linked, residual, held);
     };
     const double base = of(pool.base).chi_square, instead = of(pool.placebo).chi_square;
     const double with = of(pool.final).chi_square;
@@ -203,8 +206,8 @@ double probability_of(const CauseProof& cause) {
 void take_errors(const Frame& frame, const Findings& findings, const CauseForm& form,
                  const PerEquation& before, const PerEquation& after, const ArrayXd& held,
                  NameEvidence& evidence) {
-  const HeldOutMisfit base = misfit_of(frame, findings, form, before, held);
-  const HeldOutMisfit whole = misfit_of(frame, findings, form, after, held);
+  const HeldOutMisfit base = misfit_of(frame, findings, form.at, before, held);
+  const HeldOutMisfit whole = misfit_of(frame, findings, form.at, after, held);
   evidence.before_over_noise = std::sqrt(base.chi_square / base.noise);
   evidence.over_noise = std::sqrt(whole.chi_square / whole.noise);
 }

@@ -12,7 +12,8 @@ namespace flexspline::studies {
 /// it, else that of the first cause.
 Equation equation_to_prove(const Frame& frame, const Selection& selection);
 
-/// What recordings held out say of a cause, in the equations that it acts on, each over its noise.
+/// What recordings held out say of a cause, each equation over its noise: gain and ratio in all
+/// equations that the model's causes tie to its own (linked_equations), the rest in its own.
 struct CauseProof {
   NameEvidence name;                    ///< what is left over beside it once it is confirmed
   double placebo_ratio = kNotComputed;  ///< of the baseline with an absent effect over the baseline
