@@ -43,13 +43,13 @@ TEST(OffsetOfATorqueSensor, IsNotScaledByWhatScalesTheMotorsTorque) {
 // The two make one constant in the motor's equation; that of the sensor is told by the spring's
 // bends alone, beside a zero of the angle.
 TEST(OffsetOfATorqueSensor, IsToldFromOneOfTheMotor) {
-  constexpr double kOfMotor = 0.15;
+  constexpr double kOfMotor = -0.13;
   const Diagnosis d = diagnosed(with_motor_offset(read_wrongly(1.0, 1.0), kOfMotor, 1.0));
   const CauseParameter sensor = offset_in(d);
   const CauseParameter motor = offset_in(d, "motor_torque_offset");
   EXPECT_NEAR(sensor.value, kOffset, sensor.ci95_upper - sensor.ci95_lower);
   EXPECT_NEAR(motor.value, kOfMotor, motor.ci95_upper - motor.ci95_lower);
-  EXPECT_LT(motor.ci95_upper - motor.ci95_lower, 0.2 * kOfMotor);
+  EXPECT_LT(motor.ci95_upper - motor.ci95_lower, 0.2 * std::abs(kOfMotor));
 }
 
 // As in a model file, where true torque is (1 + e) of what is recorded.
