@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -73,45 +73,49 @@ bool is_left(Verdict verdict) {
   return verdict == Verdict::unexplained || verdict == Verdict::partly_explained;
 }
 
-const CauseParameter* parameter_of(const Cause& cause, std::string_view name) {
-  const auto found = std::ranges::find(cause.parameters, name, &CauseParameter::name);
-  return found == cause.parameters.end() || !std::isfinite(found->std) ? nullptr : &*found;
-}
-
 /// Of what a cause has as a sine and a cosine, "sine_2": the amplitude, "amplitude_order_2", and
 /// its interval, sine and cosine apart.
-std::optional<CauseParameter> amplitude_of(const Cause& cause, const std::string& name) {
-  constexpr std::string_view kAmplitude = "amplitude";
-  if (!name.starts_with(kAmplitude)) return std::nullopt;
-  std::string order = name.substr(kAmplitude.size());
-  if (order.starts_with("_order")) order.erase(0, std::string_view("_order").size());
-  const CauseParameter* const sine = parameter_of(cause, "sine" + order);
-  const CauseParameter* const cosine = parameter_of(cause, "cosine" + order);
-  if (sine == nullptr || cosine == nullptr) return std::nullopt;
-  CauseParameter amplitude = *sine;
-  amplitude.name = name;
-  amplitude.value = std::hypot(sine->value, cosine->value);
+CauseParameter amplitude_of(const CauseParameter& sine, const CauseParameter& cosine,
+                            const std::string& order) {
+  CauseParameter amplitude = sine;
+  amplitude.name = order.empty() ? "amplitude" : "amplitude_order" + order;
+  amplitude.value = std::hypot(sine.value, cosine.value);
   const auto half = [&](const CauseParameter& p) {
     return 0.5 * (p.ci95_upper - p.ci95_lower) * p.value / amplitude.value;
   };
-  const double spread = std::hypot(half(*sine), half(*cosine));
+  const double spread = std::hypot(half(sine), half(cosine));
   amplitude.ci95_lower = amplitude.value - spread;
   amplitude.ci95_upper = amplitude.value + spread;
   return amplitude;
+}
+
+/// The parameters that have an interval, and amplitudes.
+std::vector<CauseParameter> with_intervals(const Cause& cause) {
+  constexpr std::string_view kSine = "sine";
+  std::vector<CauseParameter> list;
+  std::ranges::copy_if(cause.parameters, std::back_inserter(list),
+                       [](const CauseParameter& p) { return std::isfinite(p.std); });
+  const std::size_t own = list.size();
+  for (std::size_t k = 0; k < own; ++k) {
+    if (!list[k].name.starts_with(kSine)) continue;
+    const std::string order = list[k].name.substr(kSine.size());
+    const auto cosine = std::ranges::find(list, "cosine" + order, &CauseParameter::name);
+    if (cosine != list.end()) list.push_back(amplitude_of(list[k], *cosine, order));
+  }
+  return list;
 }
 
 /// Intervals of the parameters that a right cause and the truth have in common, by name and unit.
 void score_intervals(const ConcealedAnswer& answer, const Cause& cause, CaseScore& score) {
   for (const data::HiddenFinding& effect : answer.effects) {
     if (effect.id != cause.effect) continue;
-    for (const data::HiddenParameter& truth : effect.parameters) {
-      std::optional<CauseParameter> found = amplitude_of(cause, truth.name);
-      if (const CauseParameter* same = parameter_of(cause, truth.name); !found && same)
-        found = *same;
-      const std::string key = key_of(truth);
-      if (!found || key_of({found->name, found->value, found->unit}) != key) continue;
-      score.intervals.push_back({effect.id + " " + key, found->ci95_lower, found->ci95_upper,
-                                 std::copysign(truth.value, found->value)});
+    for (const CauseParameter& found : with_intervals(cause)) {
+      const std::string key = key_of({found.name, found.value, found.unit});
+      const auto truth = std::ranges::find(effect.parameters, key,
+                                           [](const auto& parameter) { return key_of(parameter); });
+      if (truth == effect.parameters.end()) continue;
+      score.intervals.push_back({effect.id + " " + key, found.ci95_lower, found.ci95_upper,
+                                 std::copysign(truth->value, found.value)});
     }
   }
 }
