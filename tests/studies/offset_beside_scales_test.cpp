@@ -1,5 +1,7 @@
 // A torque sensor's offset beside what goes by the torque that it reads: a constant in the motor's
 // equation that the offset would stand for.
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Two angles near a resonance, where the windup is as large as the motion.
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@ namespace flexspline::studies {
 namespace {
 
 constexpr double kInertia = 3.0, kStiffness = 2e4;  // kg m2, Nm/rad: a resonance at 13 Hz
-constexpr double kPi = 3.14159265358979;
 
 /// A free drive of ratio 100 whose load is driven at these frequencies, theta_m = N (theta_l +
 /// J theta_l''/k), and what gear_ratio is stated to be.
@@ -26,7 +26,7 @@ RecordingSet driven_at(const std::vector<std::array<double, 2>>& frequencies, do
     for (double t = 0.0; t < 10.0; t += 2e-3) {
       double load = 0.0, torque = 0.0;
       for (const double frequency : pair) {
-        const double rate = 2.0 * kPi * frequency;
+        const double rate = 2.0 * std::numbers::pi * frequency;
         const double one = 0.05 / frequency * std::sin(rate * t + frequency);
         load += one;
         torque -= kInertia * rate * rate * one;

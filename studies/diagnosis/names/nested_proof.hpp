@@ -25,6 +25,7 @@ struct FoldSearches {
   std::vector<std::vector<FoundCause>> others;  ///< without each other fold that can be missed
 };
 
+/// The search in all recordings, and those without each outer fold.
 struct Searches {
   Result<Finding> finding = failure(ErrorCode::numerics, "nothing was searched");
   FoldSearches folds;

@@ -16,8 +16,7 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr double kNormal95 = 1.959964;
-constexpr double kShapeStep = 1e-4;  // of a shape's range, or of its value
-constexpr double kGainStep = 1e-5;   // of a torque, for a gain's share
+constexpr double kShapeStep = 1e-4;  // of a shape's range, or of its value; of a gain, its share
 constexpr double kUntold = 1e-10;    // eigenvalue of a correlation that says nothing
 
 std::vector<Shape> shapes_of(const ActiveCause& cause, const Frame& frame) {
@@ -202,7 +201,7 @@ CauseSpread::Catalogued CauseSpread::catalogued(std::size_t cause) const {
     if (f.baseline || f.shape) continue;
     const bool rescales = model.causes[f.cause].form->rescales;
     if (f.cause != cause && !rescales) continue;
-    if (rescales) f.step = kGainStep;
+    if (rescales) f.step = kShapeStep;
     told.slopes.row(static_cast<Index>(k)) = (in(moved(f)) - told.value).transpose() / f.step;
   }
   return told;
